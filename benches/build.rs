@@ -1,4 +1,4 @@
-//! Build times on all threads of the machine: `cargo bench --bench build -- dragon`.
+//! Benchmarks of builds on all threads of the machine: `cargo bench --bench build -- dragon`.
 
 mod common;
 
@@ -11,7 +11,7 @@ fn build(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("build/{}", scene.name.to_lowercase()));
         group.sample_size(10).throughput(Throughput::Elements(scene.mesh.len() as u64));
         for choice in common::structures(&scene.mesh) {
-            // The time excludes the drop of the finished tree.
+            // `iter_batched` does not measure the drop of the tree.
             group.bench_function(choice.label.as_str(), |bencher| {
                 bencher.iter_batched(
                     || (),

@@ -1,5 +1,4 @@
-//! Load times of a mesh of a million triangles in each format, and of a glTF file of a hundred thousand nodes:
-//! `cargo bench --bench load -- obj`. In a test, the files are small.
+//! Benchmarks of reading large mesh files: `cargo bench --bench load -- obj`.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +7,6 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec3;
 use sahara::scene::load;
 
-/// A wavy square of `side` by `side` vertices.
 struct Grid {
     side: usize,
 }
@@ -51,7 +49,7 @@ impl Grid {
         header.into_bytes().into_iter().chain(self.positions().flat_map(bytes)).chain(faces).collect()
     }
 
-    /// The glTF document, and the contents of its buffer file `mesh.bin`.
+    /// Returns a glTF document and the contents of the buffer file `mesh.bin`.
     fn gltf(&self) -> (String, Vec<u8>) {
         let [vertices, triangles] = self.counts();
         let [before, after] = [12 * vertices, 12 * triangles];
@@ -71,7 +69,7 @@ impl Grid {
     }
 }
 
-/// A glTF document of `count` nodes with different matrices. Each node draws one triangle.
+/// A glTF document in which each node draws one triangle.
 fn nodes(count: usize) -> String {
     let matrix = |i: usize| format!("[1,0,0.125,0,0,1,0,0,-0.125,0,1,0,{},{},0.5,1]", i as f64 / 7.0, i as f64 / -3.0);
     let node = |i: usize| format!(r#"{{"name":"node {i}","mesh":0,"matrix":{}}}"#, matrix(i));
@@ -91,7 +89,6 @@ fn little(triangle: [usize; 3]) -> Vec<u8> {
     triangle.map(|corner| (corner as u32).to_le_bytes()).concat()
 }
 
-/// Writes the files to load: `grid` in each format, and a glTF file of `node_count` nodes.
 fn write(grid: &Grid, node_count: usize, folder: &Path) {
     let (document, buffer) = grid.gltf();
     let files = [

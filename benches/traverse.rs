@@ -1,4 +1,4 @@
-//! Trace times on one thread: `cargo bench --bench traverse -- dragon`. The throughput is in rays per second.
+//! Benchmarks of traversals on one thread: `cargo bench --bench traverse -- dragon`.
 
 mod common;
 
@@ -10,7 +10,6 @@ use sahara::measure::{CpuClock, Pass, Stopwatch, SystemClock, Threads, Timed};
 use sahara::registry::Registry;
 use sahara::scene::{Sampling, Scene, Workload};
 
-/// The workloads of a scene, with all rays of the picture as in `sahara compare`. Omits empty workloads.
 fn workloads(scene: &Scene) -> Vec<Workload> {
     let ray_source =
         Registry::builtin().choose("sah-kd").expect("a registered name").build(&scene.mesh).expect("it builds");
@@ -19,8 +18,7 @@ fn workloads(scene: &Scene) -> Vec<Workload> {
     workloads.filter(|workload| !workload.rays.is_empty()).collect()
 }
 
-/// Times passes of a workload. The untimed warm-up (`lead_in`) and the clock are the same as in `sahara compare`: the
-/// times are comparable.
+/// Uses the same warm-up and the same clock as `sahara compare`.
 fn bench(criterion: &mut Criterion, group: &str, name: &str, accel: &dyn DynAccel, workload: &Workload) {
     let threads = Threads::pinned(1).expect("there is a thread");
     let _pin = threads.pin();
@@ -57,7 +55,7 @@ fn traverse(criterion: &mut Criterion) {
     }
 }
 
-/// Trace times of the batch strategies: `cargo bench --bench traverse -- slices/lucy`.
+/// Benchmarks of traversals of single rays and of packets: `cargo bench --bench traverse -- slices/lucy`.
 fn slices(criterion: &mut Criterion) {
     for name in common::SLICED {
         let scene = common::scene(name);

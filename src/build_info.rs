@@ -1,5 +1,4 @@
-//! Build script: records the commit, the compiler and its settings. A value that cannot be determined is "unknown": for
-//! example, the commit if git is missing.
+//! Build script that records the commit, the compiler and the build settings.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -19,14 +18,12 @@ fn main() {
     set("SAHARA_PROFILE", env::var("PROFILE").ok());
     set("SAHARA_OBVHS", locked(&root, "obvhs"));
 
-    // Rerun this script when the sources change: SAHARA_COMMIT marks changed sources.
+    // A change of these files can change a recorded value.
     for path in ["src", "Cargo.toml", "Cargo.lock", ".cargo/config.toml"] {
         rerun_if_changed(&root.join(path));
     }
 }
 
-/// The commit of the sources, with `+changes` if the sources differ from it. `None` if the crate is not the root of a
-/// git work tree.
 fn commit(root: &Path) -> Option<String> {
     let git = |args: &[&str]| output(root, "git", args);
     let top = PathBuf::from(git(&["rev-parse", "--show-toplevel"])?);
@@ -37,7 +34,7 @@ fn commit(root: &Path) -> Option<String> {
         rerun_if_changed(&root.join(git(&["rev-parse", "--git-path", file])?));
     }
     let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
-    // Without optional locks, git does not write the index. A new index would rerun this script and rebuild the crate.
+    // With `--no-optional-locks`, git does not write the index. A change of the index would rerun this script.
     let sources = [
         "--no-optional-locks",
         "status",
@@ -52,21 +49,19 @@ fn commit(root: &Path) -> Option<String> {
     Some(if changes { commit + "+changes" } else { commit })
 }
 
-/// The version of a package in the lock file.
 fn locked(root: &Path, package: &str) -> Option<String> {
     let lock = std::fs::read_to_string(root.join("Cargo.lock")).ok()?;
     let (_, entry) = lock.split_once(&format!("name = \"{package}\"\nversion = \""))?;
     Some(entry.split('"').next()?.to_owned())
 }
 
-/// Reruns this script when `path` changes. Skips a missing path, because cargo would rerun the script on every build.
+/// Skips a missing path. For a missing path, cargo would rerun this script on every build.
 fn rerun_if_changed(path: &Path) {
     if path.exists() {
         println!("cargo::rerun-if-changed={}", path.display());
     }
 }
 
-/// The output of a program without surrounding white space; `None` if it fails or is missing.
 fn output(directory: &Path, program: &str, args: &[&str]) -> Option<String> {
     let output = Command::new(program).args(args).current_dir(directory).output().ok()?;
     output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())

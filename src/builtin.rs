@@ -1,4 +1,4 @@
-//! The twelve scenes of the source report and their golden images, compiled into the program.
+//! The twelve built-in scenes and their golden images, compiled into the program.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,6 @@ use crate::names::{named, suggestion};
 use crate::scene::format::SceneFile;
 use crate::scene::{Scene, SceneError};
 
-/// The group of a scene in the source report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Difficulty {
     Easy,
@@ -17,15 +16,12 @@ pub enum Difficulty {
     Hard,
 }
 
-/// A scene that is compiled into the program.
 #[derive(Debug)]
 pub struct Builtin {
     pub name: &'static str,
     pub difficulty: Difficulty,
-    /// The text of its scene file.
     pub text: &'static str,
     golden: &'static [u8],
-    /// The path of the golden image in the source tree.
     golden_file: &'static str,
 }
 
@@ -41,7 +37,6 @@ macro_rules! builtin {
     };
 }
 
-/// All built-in scenes, in the order of the source report.
 pub const BUILTIN: &[Builtin] = builtin! {
     Easy "Cube" "cube";
     Easy "Sphere" "sphere";
@@ -58,10 +53,10 @@ pub const BUILTIN: &[Builtin] = builtin! {
 };
 
 impl Builtin {
-    /// The scene called `name`. Upper and lower case do not differ.
+    /// Finds a scene by name, ignoring case.
     ///
     /// # Errors
-    /// [`SceneError::Unknown`], which suggests a name and lists all names.
+    /// [`SceneError::Unknown`] if no scene has this name.
     pub fn find(name: impl AsRef<OsStr>) -> Result<&'static Self, SceneError> {
         let name = name.escaped().to_string();
         named(BUILTIN, &name, |builtin| builtin.name).ok_or_else(|| {
@@ -74,26 +69,26 @@ impl Builtin {
         })
     }
 
-    /// The parsed scene file.
     pub fn file(&self) -> SceneFile {
         SceneFile::parse(self.text, self.name).expect("a test reads all built-in scenes")
     }
 
-    /// Makes the scene. Generated meshes replace real meshes that are not in the folder `real_meshes` (all, if `None`).
+    /// Generated meshes replace real meshes that are missing in the folder `real_meshes`. If `real_meshes` is `None`,
+    /// generated meshes replace all real meshes.
     ///
     /// # Errors
-    /// If a file of `real_meshes` cannot be loaded.
+    /// If a file in `real_meshes` cannot be loaded.
     pub fn scene(&self, real_meshes: Option<&Path>) -> Result<Scene, SceneError> {
         Scene::from_text(self.text, self.name, None, real_meshes)
     }
 
-    /// The golden image of the scene: shaded, 160 x 160 pixels. [`SceneGolden::update`] writes it to the source tree.
+    /// The golden image in the shaded view, 160 x 160 pixels.
     pub fn golden(&self) -> SceneGolden {
         SceneGolden::in_program(self.golden, Path::new(env!("CARGO_MANIFEST_DIR")), Path::new(self.golden_file))
     }
 }
 
-/// The folder of real meshes: the environment variable `SAHARA_DATA`, or `scenes/data`. The folder may not exist.
+/// The folder of real meshes. The folder may be missing.
 pub fn real_mesh_folder() -> PathBuf {
     std::env::var_os("SAHARA_DATA").filter(|v| !v.is_empty()).map_or_else(|| "scenes/data".into(), PathBuf::from)
 }

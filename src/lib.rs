@@ -5,8 +5,8 @@
 //!
 //! # The trees in a renderer
 //!
-//! The trees are a separate crate, [`sahara_core`], with five small dependencies. This crate re-exports its modules
-//! with the same names.
+//! The trees are a separate crate, [`sahara_core`], with five small dependencies. This crate re-exports the modules of
+//! `sahara_core` with the same names.
 //!
 #![doc = include_str!("WALK_THROUGH_1_STRUCTURE.md")]
 #![doc = "```"]
@@ -14,16 +14,13 @@
 #![doc = "```"]
 #![doc = include_str!("WALK_THROUGH_2_COMMAND_AND_TESTS.md")]
 
-// The core.
 pub use sahara_core::{
     accel, brute_force, build, bvh8, exact, external, geometry, kdtree, offered, oracle, simd, triangle,
 };
 
-// Scenes and images.
 use sahara_images::{escaped, names, plural};
 pub use sahara_images::{golden, output, render, scene};
 
-// The suite.
 pub mod builtin;
 pub mod cli;
 pub mod fetch;

@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 use std::thread;
 
 thread_local! {
-    /// Whether [`caught`] catches panics of this thread.
+    /// Whether [`caught`] runs on this thread.
     static CATCHES: Cell<bool> = const { Cell::new(false) };
 }
 
@@ -21,10 +21,10 @@ fn held_back() -> MutexGuard<'static, Vec<String>> {
     HELD_BACK.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Returns the result of `work`, or the payload of its panic. The panic is not printed: the caller must report it.
+/// Returns the result of `work`, or the payload of its panic. The caller must report the panic: it is not printed.
 ///
-/// While `work` runs, panics of rayon threads are not printed either: rayon passes them to the waiting thread. If no
-/// thread catches such a panic, [`uncaught`] returns its message. Panics of all other threads are printed as usual.
+/// While `work` runs, panics of rayon threads are not printed: rayon passes them to the waiting thread. If no thread
+/// catches such a panic, [`uncaught`] returns its message.
 pub fn caught<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -45,7 +45,7 @@ pub fn caught<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     result
 }
 
-/// The messages of panics that were neither printed nor caught by [`caught`].
+/// Takes the messages of the panics that were neither printed nor caught by [`caught`].
 pub fn uncaught() -> Vec<String> {
     std::mem::take(&mut held_back())
 }

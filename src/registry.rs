@@ -21,11 +21,10 @@ pub use choice::{Choice, ChoiceError, RUNNER, is_named, plain_name};
 pub use entry::Entry;
 pub use keys::Key;
 
-/// The structures that a run can choose from, in the order of tables, and the generators of scenes.
+/// The structures, in the order of tables, and the generators of scenes.
 #[derive(Clone)]
 pub struct Registry {
     entries: Vec<Entry>,
-    /// Generators of scenes, by name.
     generators: Vec<(&'static str, Generate)>,
 }
 
@@ -33,7 +32,6 @@ pub struct Registry {
 pub type Generate = fn(&str) -> anyhow::Result<Scene>;
 
 impl Registry {
-    /// A registry without structures and generators.
     pub fn empty() -> Self {
         Self { entries: vec![], generators: vec![] }
     }
@@ -50,12 +48,10 @@ impl Registry {
         self
     }
 
-    /// Whether there is a generator of this name.
     pub fn has_generator(&self, name: &str) -> bool {
         self.generator(name).is_some()
     }
 
-    /// The scene of a generator; `None` if there is no generator of this name.
     pub fn generated(&self, name: &str, parameters: &str) -> Option<anyhow::Result<Scene>> {
         Some(self.generator(name)?(parameters))
     }
@@ -67,13 +63,13 @@ impl Registry {
     /// Adds a structure under `name`, with the default configuration `config`.
     ///
     /// # Panics
-    /// If `name` is empty or `all`, contains `:`, `,`, `=` or white space, or already has an entry with the same
-    /// triangle test. Also if `config` serialises to anything other than a map of keys or null.
+    /// If `name` is empty or `all`, or contains `:`, `,`, `=` or white space. If `name` already has an entry with the
+    /// triangle test of `A`. If `config` serialises to anything other than a map of keys or null.
     pub fn with<A: Accel>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, |mesh, config| Ok(Box::new(A::build(mesh, config)?)))
     }
 
-    /// Like [`with`](Self::with), for structures that are compiled in `sahara-core`.
+    /// [`with`](Self::with) for structures that are compiled in `sahara-core`.
     fn offering<A: Offered>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, A::boxed)
     }
@@ -97,7 +93,7 @@ impl Registry {
         };
         let build: Build = Arc::new(move |mesh, config| {
             let config = parse::<A>(config).map_err(BuildError::Config)?;
-            // A builder of another crate may panic on an unexpected mesh: this must not end a run.
+            // A builder of another crate may panic on an unexpected mesh. The panic must not end the run.
             caught(|| build(mesh, &config)).unwrap_or(Err(BuildError::Panic))
         });
         self.entries.push(Entry {
@@ -114,21 +110,19 @@ impl Registry {
         self
     }
 
-    /// All entries, in order.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }
 
-    /// The entry `name` with the triangle test `test`.
     pub fn find(&self, name: &str, test: &str) -> Option<&Entry> {
         self.entries.iter().find(|e| e.name == name && e.triangle_test == test)
     }
 
-    /// Reads `NAME` or `NAME:key=value,..`. The key `test` chooses the triangle test; without it, the first entry
+    /// Reads `NAME` or `NAME:key=value,..`. The key `test` chooses the triangle test. Without this key, the first entry
     /// `NAME` is chosen.
     ///
     /// # Errors
-    /// If the name, a key or the test is unknown (the error lists the known names), or a value is not accepted.
+    /// If the name, a key, a value or the triangle test is not accepted.
     pub fn choose(&self, spec: &str) -> Result<Choice, ChoiceError> {
         let (name, pairs) = spec.split_once(':').unwrap_or((spec, ""));
         let mut overrides = vec![];
@@ -154,13 +148,11 @@ impl Registry {
         Choice::of(entry, &overrides, !std::ptr::eq(*entry, first))
     }
 
-    /// The default choice of every entry, in order.
     pub fn all(&self) -> Vec<Choice> {
         let default = |e| Choice::of(e, &[], !self.is_first(e)).expect("a default configuration is accepted");
         self.entries.iter().map(default).collect()
     }
 
-    /// The distinct names, in order.
     pub fn names(&self) -> Vec<&str> {
         self.entries.iter().filter(|e| self.is_first(e)).map(|e| e.name.as_str()).collect()
     }
@@ -171,7 +163,7 @@ impl Registry {
     }
 }
 
-/// Parses a configuration from its map of keys. An empty map also represents null, the value of a type without fields.
+/// An empty map also represents null, the serialised form of a configuration without fields.
 fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
     serde_json::from_value(config.clone()).or_else(|error| match config {
         Value::Object(map) if map.is_empty() => serde_json::from_value(Value::Null).map_err(|_| error.to_string()),

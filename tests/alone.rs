@@ -1,12 +1,11 @@
-//! Runs a test in a separate process if it measures or sets something that concerns the whole process.
+//! Runs a test in a separate process if it uses a property of the whole process.
 
 use std::process::Command;
 
-/// The environment variable that marks the separate process.
 const ALONE: &str = "SAHARA_TEST_ALONE";
 
-/// Returns true in the separate process, where the test must continue. Otherwise runs the test with this path
-/// (`module::function`) in a separate process, panics if it fails there, and returns false.
+/// Returns true in the separate process. Otherwise runs the test `path` (`module::function`) in a separate process and
+/// returns false. Panics if the test fails there.
 pub fn alone(path: &str) -> bool {
     if std::env::var_os(ALONE).is_some() {
         return true;

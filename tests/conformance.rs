@@ -1,4 +1,4 @@
-//! Checks structures of the registry against the contract of `Accel`, on degenerate meshes, scenes and every stratum.
+//! Checks structures of the registry on degenerate meshes and on scenes.
 
 use std::fs;
 use std::path::Path;
@@ -23,7 +23,8 @@ sahara::conformance!(sah_kd_tight, Bvh8<MollerTrumbore>, Bvh8Config::new(Partiti
 sahara::conformance!(sah_hybrid, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Hybrid), lowest_id);
 sahara::conformance!(sah_bvh, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Objects), lowest_id);
 
-/// Configurations that differ in their trees or traversals. The option `exit=first-leaf` is wrong by design, so absent.
+/// Configurations that differ in their trees or traversals. The option `exit=first-leaf` is absent, because it is wrong
+/// by design.
 const OURS: [&str; 36] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
@@ -73,17 +74,16 @@ pub fn passes(outcome: Result<(), String>) {
     outcome.unwrap_or_else(|report| panic!("{report}"));
 }
 
-/// Checks that the hits of `specs` are right, with `count` rays of each stratum on each mesh.
 fn are_right(specs: &[&str], meshes: &[Named], count: usize) {
     let registry = Registry::builtin();
     let check = |spec: &&str| passes(answers(&subject(&registry.choose(spec).unwrap(), true), meshes, count));
-    // Checks run outside rayon's pool: they wait for builds, which need the threads of the pool.
+    // The checks wait for builds, which need the threads of rayon's pool. The checks must therefore run outside the
+    // pool.
     thread::scope(|scope| {
         specs.chunks(specs.len().div_ceil(2)).for_each(|half| drop(scope.spawn(|| half.iter().for_each(check))));
     });
 }
 
-/// Besides the degenerate meshes, tests the built-in scenes, which have realistic sizes.
 #[test]
 #[ignore = "a minute and a half; the default configurations are tested above"]
 fn every_configuration_of_ours_is_right() {
@@ -109,8 +109,8 @@ fn our_trees_are_right_where_surfaces_coincide() {
     are_right(&TREES, &meshes, 12);
 }
 
-/// Checks only counts and shapes, because the baseline has wrong hits, which `tests/findings.rs` lists. Leaves out
-/// structures that deviate from the contract, such as peers: `tests/peers.rs` tests them.
+/// Checks only counts and shapes, because the baseline has wrong hits. Structures that deviate from the contract are
+/// left out, because `tests/peers.rs` tests them.
 #[test]
 #[ignore = "a minute"]
 fn everything_offered_counts_and_has_a_possible_shape() {
@@ -126,7 +126,6 @@ fn everything_offered_counts_and_has_a_possible_shape() {
     }
 }
 
-/// Includes peers and packets, on two meshes. `conformance!` runs this check on all degenerate meshes.
 #[test]
 fn counting_and_loading_change_no_hit_of_any_structure() {
     let registry = Registry::builtin();

@@ -1,4 +1,4 @@
-//! Plants faults in a picture, and checks the table in src/images/golden/GOLDEN.md: which measure detects which fault.
+//! Checks the table in src/images/golden/GOLDEN.md, which lists the measures that detect each fault.
 
 use std::sync::Arc;
 
@@ -58,7 +58,6 @@ pub fn pictures() -> (DynamicImage, [(&'static str, DynamicImage); 6]) {
     (right, others)
 }
 
-/// Options of `golden compare`, and the comparison that each selects.
 const CHECKS: [(&str, Match); 4] = [
     ("none", Match::Exact),
     ("`--max-difference 2`", Match::Tolerance { difference: 2.0, pixels: Allowed::Pixels(0) }),
@@ -66,7 +65,6 @@ const CHECKS: [(&str, Match); 4] = [
     ("`--max-flip 0.01`", Match::Flip { mean: 0.01, pixels_per_degree: sahara::golden::measures::PIXELS_PER_DEGREE }),
 ];
 
-/// Formats a measure for the table.
 type Say = fn(&Measures) -> String;
 
 fn table() -> String {

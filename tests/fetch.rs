@@ -13,12 +13,10 @@ use sha2::{Digest, Sha256};
 
 use crate::cli::command::{Folder, RIGHT, USAGE, ends};
 
-/// The content of the file to fetch.
 fn mesh() -> Vec<u8> {
     (0..100_000_u32).flat_map(|i| format!("v {i} {} 0\n", i * 7 % 13).into_bytes()).collect()
 }
 
-/// A server whose response depends on the path, and the folder for fetched files.
 struct Server {
     address: String,
     requests: Arc<Mutex<Vec<String>>>,
@@ -50,7 +48,6 @@ impl Server {
         Self { address, requests, folder: Folder::new() }
     }
 
-    /// The server's file at `path`, to be fetched into a folder that has the name of the path.
     fn file(&self, path: &str) -> DataFile {
         let (folder, bytes) = (self.folder.path(&path[1..]), mesh());
         let url = format!("{}{path}", self.address);
@@ -76,7 +73,7 @@ fn response(status: &str, head: &str, body: &[u8]) -> Vec<u8> {
     [head.as_bytes(), body].concat()
 }
 
-/// The response to a request for `path`; `own` is the address of the server.
+/// `own` is the address of the server.
 fn answer(own: &str, path: &str) -> Vec<u8> {
     let whole = mesh();
     match path {
@@ -88,7 +85,6 @@ fn answer(own: &str, path: &str) -> Vec<u8> {
         "/moved" => response("302 Found", &format!("Location: {own}/mesh.obj\r\n"), b""),
         "/circle" => response("302 Found", &format!("Location: {own}/circle\r\n"), b""),
         "/broken" => response("503 Service Unavailable", "", b""),
-        // Announces 2^64 - 1 bytes.
         "/endless" => format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\nv 0", u64::MAX).into_bytes(),
         "/silent" => format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", whole.len()).into_bytes(),
         "/headless" => b"HTTP/1.1 200 OK\r\nServer: ".to_vec(),
@@ -97,7 +93,6 @@ fn answer(own: &str, path: &str) -> Vec<u8> {
     }
 }
 
-/// Checks that a download fails with a message of one line that contains all of `parts`.
 #[track_caller]
 fn refused(file: &DataFile, client: &Client, parts: &[&str]) {
     let error = client.fetch(file, &mut |_| ()).unwrap_err().to_string();
@@ -140,7 +135,7 @@ fn what_is_wrong_is_refused_in_a_sentence_and_not_kept() {
     for path in STALLS {
         let (begun, server) = (Instant::now(), Server::start());
         let file = server.file(path);
-        refused(&file, &Client::with_patience(Duration::from_secs(2)), &["timeout", &file.url]);
+        refused(&file, &Client::with_timeout(Duration::from_secs(2)), &["timeout", &file.url]);
         assert!(begun.elapsed() < Duration::from_secs(20), "{:?}", begun.elapsed());
     }
 }
@@ -153,7 +148,7 @@ fn what_is_there_with_other_contents_is_not_touched() {
     fs::write(&file.path, b"mine").unwrap();
     refused(&file, &client, &["other contents", "mesh.obj"]);
     assert_eq!(fs::read(&file.path).unwrap(), b"mine");
-    // The client cannot write below a regular file, and cannot read a folder that has the name of the file.
+    // The client cannot write below a regular file, and cannot read a folder in place of a file.
     refused(&DataFile { path: file.path.join("x"), ..file.clone() }, &client, &["cannot write"]);
     fs::remove_file(&file.path).unwrap();
     fs::create_dir(&file.path).unwrap();

@@ -1,5 +1,6 @@
-//! The known defects of the baseline obvhs 0.4.0, by name and cause. The tests fail if a listed defect disappears (then
-//! remove it from the list) or if a new defect appears.
+//! Tests that the baseline obvhs 0.4.0 has exactly the known defects.
+//!
+//! If a listed defect disappears, remove it from the list.
 
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ const BOTH: [&str; 4] = [BVH2[0], BVH2[1], CWBVH[0], CWBVH[1]];
 
 /// One ray on which some structures return a wrong hit.
 pub struct Finding {
-    /// The special property of the ray, and why the code of these structures misses its hit.
+    /// The reason why these structures miss the hit.
     pub cause: &'static str,
     pub structures: &'static [&'static str],
     pub mesh: &'static str,
@@ -25,7 +26,7 @@ pub struct Finding {
     pub kind: Kind,
 }
 
-/// A template for findings: a lost hit on the mesh `box of a grid`.
+/// A template for findings.
 pub const LOST: Finding = Finding { cause: "", structures: &[], mesh: "box of a grid", ray: "", kind: Kind::Lost };
 
 const FINDINGS: [Finding; 6] = [
@@ -69,12 +70,10 @@ const FINDINGS: [Finding; 6] = [
     },
 ];
 
-/// The degenerate mesh of this name.
 pub fn mesh(name: &str) -> Arc<Mesh> {
     degenerate_meshes().into_iter().find(|(known, _)| known == name).expect("a mesh of the suite").1
 }
 
-/// Compares the result of one ray on a degenerate mesh with brute force.
 pub fn compared(choice: &Choice, mesh_name: &str, ray: &str) -> Validation {
     let mesh = mesh(mesh_name);
     let reference = Reference::of_test(choice.triangle_test(), &mesh).unwrap();
@@ -102,8 +101,7 @@ fn each_finding_is_still_there_and_ours_find_the_hit() {
     }
 }
 
-/// The degenerate meshes except two on which every stratum has errors. In `soup times 2^-30` the directions of rays are
-/// too short, and `exponential sequence` has boxes of all sizes.
+/// The degenerate meshes without two meshes on which every stratum has errors.
 pub fn meshes() -> Vec<Named> {
     let mut meshes = degenerate_meshes();
     meshes.retain(|(name, _)| name != "soup times 2^-30" && name != "exponential sequence");
@@ -132,7 +130,7 @@ fn rays_without_a_named_cause_are_answered_rightly() {
 }
 
 /// The triangle test causes these errors, so brute force has them too. On an edge, the sum of two rounded quotients can
-/// exceed 1. The test also reads only the sign bit of a quotient, so a point at -0.0 is outside.
+/// exceed 1. The test reads only the sign bit of a quotient, so a point at -0.0 is outside.
 #[test]
 fn rt_triangle_misses_hits_on_edges() {
     let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(glam::Vec3::from_array);

@@ -1,5 +1,4 @@
-//! Golden images: the structures of this crate and the baseline, over the exact triangle test, render every built-in
-//! scene byte for byte as committed. `FINDINGS` lists the differences of the baseline.
+//! Tests that the structures render the built-in scenes exactly as committed.
 
 use std::path::Path;
 
@@ -8,12 +7,10 @@ use sahara::golden::{GoldenError, TRIANGLE_TEST};
 use sahara::registry::{Choice, Registry};
 use sahara::request::{is_obvhs, known_defect};
 
-/// Pictures of the baseline that differ: structure, scene and number of different pixels. The test demands exactly
-/// these differences.
+/// Structure, scene and number of different pixels. The test demands exactly these differences.
 ///
-/// In the Cornell box, rays through the picture's diagonals meet the edges between walls exactly, and hit two walls of
-/// different colours at one `t`. The structures of this crate must return the lower primitive number. obvhs may return
-/// the other wall, which the contract allows. obvhs-cwbvh also loses one hit, because its boxes have no margin.
+/// Rays through the diagonals of the Cornell box meet edges between walls exactly. Such a ray hits two walls at one
+/// `t`, and obvhs may return either wall. obvhs-cwbvh also loses one hit, because its boxes have no margin.
 const FINDINGS: [(&str, &str, usize); 2] =
     [("obvhs-bvh2:test=exact", "Cornellbox", 103), ("obvhs-cwbvh:test=exact", "Cornellbox", 49)];
 
@@ -34,7 +31,6 @@ fn every_structure_draws_every_scene_as_committed() {
     assert_eq!(draw_as_committed(&common), expected);
 }
 
-/// Renders all built-in scenes with all `choices`. Returns structure, scene and number of pixels of each difference.
 fn draw_as_committed(choices: &[Choice]) -> Vec<(String, String, usize)> {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
     let mut differing = vec![];
@@ -75,7 +71,6 @@ mod pictures {
     /// Sets the width and height in the bytes of a picture to values that need too much memory.
     type Enlarge = fn(&mut [u8]);
 
-    /// A picture of each format, and the function that changes the size in its bytes.
     fn of_each_format() -> [(DynamicImage, ImageFormat, Enlarge); 3] {
         [
             (colours().into(), ImageFormat::Jpeg, |bytes| {

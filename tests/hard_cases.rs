@@ -1,5 +1,7 @@
-//! Runs the hard cases. The structures of this crate must lose no hit over any triangle test; triangle tests in `f64`
-//! must be right on all ranked cases, and `exact` must return the exact hits.
+//! Runs the hard cases.
+//!
+//! The structures of this crate must lose no hit over any triangle test. Triangle tests in `f64` must be right on all
+//! ranked cases. `exact` must return the exact hits.
 
 use rayon::prelude::*;
 use sahara::measure::SystemClock;
@@ -7,23 +9,20 @@ use sahara::registry::{Choice, Registry};
 use sahara::request::known_defect;
 use sahara::validate::hard_cases::{CaseTruth, Content, HardCase, Rank, catalogue, run};
 
-/// Rays per case.
 const RAYS: usize = 200;
-/// Rays per case of `LABORIOUS`: each of these rays needs thousands of exact decisions.
+/// Rays per case of `LABORIOUS`. Each of these rays needs thousands of exact decisions.
 const FEW: usize = 10;
 const LABORIOUS: [&str; 3] = ["duplicates_20000", "fan_apex", "far_1e8"];
 
 /// Triangle tests whose hits are right except for the final rounding to `f32`.
 const IN_F64: [&str; 2] = ["moller-trumbore-f64", "edge-f64"];
 
-/// Structures with the traversal of `sah-hybrid`; they run only over the triangle tests in `FEW_TESTS`.
+/// Structures with the traversal of `sah-hybrid`. They run only over the triangle tests in `FEW_TESTS`.
 const SAME_TRAVERSAL: [&str; 3] = ["sah-kd-wide", "sah-kd-tight", "sah-bvh"];
 const FEW_TESTS: [&str; 2] = ["moller-trumbore", "exact"];
 
-/// Triangle tests of peers.
 const OF_PEERS: [&str; 2] = ["bvh-triangle", "parry-triangle"];
 
-/// The structures of this crate over their triangle tests, except `OF_PEERS`; `SAME_TRAVERSAL` only over `FEW_TESTS`.
 fn ours() -> Vec<Choice> {
     let mut choices = Registry::builtin().all();
     choices.retain(|choice| {
@@ -34,7 +33,7 @@ fn ours() -> Vec<Choice> {
     choices
 }
 
-/// Describes the failure of a structure on a case. `None` if the requirements at the top of this file are met.
+/// `None` if the requirements at the top of this file are met.
 fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -> Option<String> {
     let test = choice.triangle_test();
     let ranked = matches!(case.rank, Rank::Moderate | Rank::Extreme);
@@ -44,13 +43,13 @@ fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -
     };
     let score = truth.score(test, answers).unwrap();
     let is_wrong = score.rays().is_some_and(|rays| {
-        test == "exact" && rays.inexact > 0 || IN_F64.contains(&test) && ranked && rays.judged.errors() > 0
+        test == "exact" && rays.inexact > 0 || IN_F64.contains(&test) && ranked && rays.strict_errors.errors() > 0
     });
     (is_wrong || !score.is_sound()).then(|| format!("{} on {}: {score:?}", choice.label, case.name))
 }
 
-/// Runs the cases with rays, or the properties if `of_rays` is false. `is_run` selects the pairs of case and structure
-/// by the index of the case and the index of the structure.
+/// Runs the cases with rays, or the properties if `of_rays` is false. `is_run` receives the index of the case and the
+/// index of the structure.
 #[track_caller]
 fn assert_sound(of_rays: bool, is_run: fn(usize, usize) -> bool) {
     let (choices, mut cases) = (ours(), catalogue());

@@ -1,6 +1,6 @@
-//! Malformed and malicious files. Each is rejected with one sentence that names the file and the place of the fault.
-//! Loading takes at most 64 MiB of memory plus twice the size of the file and of all files to which it refers. For OBJ
-//! files, the factor is sixteen.
+//! Malformed and malicious files, each rejected with one sentence about the file and the fault.
+//!
+//! Loading takes at most 64 MiB of memory plus twice the size of all files. For OBJ files, the factor is sixteen.
 
 use std::fs;
 
@@ -12,12 +12,12 @@ use serde_json::{Value, json};
 use crate::alone::alone;
 use crate::cli::command::assert_contains;
 
-/// Files in one folder; the first one is loaded.
+/// Files in one folder. The first file is loaded.
 type Files = Vec<(&'static str, Vec<u8>)>;
 
 const SLACK: usize = 64 << 20;
 
-/// Loads the first file. Returns its number of triangles or rays, or its one-line error message from the file name on.
+/// Returns the number of triangles or rays, or the error message from the file name on.
 fn loaded(files: &Files) -> Result<usize, String> {
     let (name, folder) = (files[0].0, tempfile::tempdir().unwrap());
     for (name, bytes) in files {
@@ -43,7 +43,7 @@ fn loaded(files: &Files) -> Result<usize, String> {
     })
 }
 
-/// A glTF document of one mesh with `count` vertices, whose positions are in `a.bin`; it has no indices.
+/// A glTF document of one mesh with `count` vertices, without indices. The positions are in `a.bin`.
 fn document(count: usize) -> Value {
     json!({
         "asset": {"version": "2.0"},
@@ -133,7 +133,7 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         text([start.as_bytes(), &item.as_bytes().repeat(times), b"{}]}"].concat())
     };
 
-    // Many primitives or buffers refer to one megabyte of data; accessor 1 reaches beyond it.
+    // Many primitives or buffers refer to one megabyte of data. Accessor 1 reaches beyond the data.
     let megabyte = 87_381;
     let with_primitives = |accessors: &[usize]| {
         let mut document = document(megabyte);
@@ -189,7 +189,7 @@ fn ray_files() -> Vec<(Files, [&'static str; 2])> {
     ]
 }
 
-/// Runs in a separate process, where no other test allocates during the measurement.
+/// Runs in a separate process, because no other test may allocate during the measurement.
 #[test]
 fn each_is_refused_in_a_sentence_and_takes_little_memory() {
     if !alone("hostile_files::each_is_refused_in_a_sentence_and_takes_little_memory") {
@@ -200,7 +200,7 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
         assert_contains(&loaded(&files).expect_err(words[1]), &words);
     }
 
-    // Valid files have the same memory limit. The crate tobj exceeds it: it takes thirty times the size of a file.
+    // Valid files have the same memory limit.
     for (faces, triangles) in
         [("f 1 1 1\n", 1), ("f 1 1 1 1 1\n", 3), ("usemtl a\nf 1//1 1//1 1//1\nusemtl b\nf 1 1 1\n", 2)]
     {
@@ -213,7 +213,7 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
     often["buffers"] = (0..30_000).map(|_| json!({"uri": "a.bin", "byteLength": 12_000_000})).collect();
     often["accessors"][0]["count"] = 300.into();
     assert_eq!(loaded(&gltf(&often, 12_000_000)), Ok(100));
-    // Many material libraries are missing: comparing each of them with all others would take hours.
+    // The time must not be quadratic in the number of missing material libraries.
     let missing: String = (0..300_000).map(|i| format!("mtllib {i}\n")).collect();
     assert_eq!(loaded(&vec![("a.obj", format!("{missing}{TRIANGLE}f 1 2 3\n").into_bytes())]), Ok(1));
     let libraries = [b"mtllib a.mtl\n".repeat(100_000), format!("{TRIANGLE}usemtl a\nf 1 2 3\n").into_bytes()].concat();

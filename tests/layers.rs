@@ -1,12 +1,13 @@
-//! Checks that a module imports only modules of lower layers and earlier modules of its own layer, also within a crate.
+//! Checks that modules import only modules of lower layers.
+//!
 //! Also checks that some external crates are imported in only one folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The modules of the three crates by layer; ARCHITECTURE.md draws them. Within a layer, a module may import the
-/// modules before it; structures are an exception.
+/// The modules of the three crates by layer, as in ARCHITECTURE.md. Within a layer, a module may import the modules
+/// before it. Structures are an exception.
 const LAYERS: [&[&str]; 9] = [
     &["escaped", "geometry", "names", "output", "panics", "plural", "simd"],
     &["exact", "triangle", "accel"],
@@ -25,8 +26,7 @@ const STRUCTURES: usize = 3;
 /// External crates, each with the only folder that may import it.
 const ENCLOSED: [(&str, &str); 2] = [("gltf", "scene::load"), ("tobj", "scene::load")];
 
-/// Source code by module path, such as `bvh8::node`; a `mod.rs` has the path of its folder. Comments and items that are
-/// compiled only for tests are removed.
+/// Source code by module path, such as `bvh8::node`. Comments and items for tests are removed.
 struct Sources(BTreeMap<String, String>);
 
 impl Sources {
@@ -51,7 +51,6 @@ impl Sources {
         Self(sources)
     }
 
-    /// All forbidden imports and modules without a layer, one line each.
     fn faults(&self) -> BTreeSet<String> {
         let mut faults = BTreeSet::new();
         for (file, text) in &self.0 {
@@ -83,7 +82,6 @@ fn join(module: &str, name: &str) -> String {
     [module, name].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("::")
 }
 
-/// Whether a module is `folder` or lies in it.
 fn is_in(module: &str, folder: &str) -> bool {
     module.strip_prefix(folder).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
 }
@@ -138,7 +136,7 @@ fn imported<'a>(file: &str, path: &'a str) -> Option<&'a str> {
     if above == file.split("::").count() { path.split("::").nth(above) } else { None }
 }
 
-/// The layer of a module, and its position within the layer. Imports that follow this order have no cycles.
+/// The layer of a module, and its position within the layer.
 fn place(module: &str) -> Option<[usize; 2]> {
     let mut places = LAYERS.iter().enumerate();
     places.find_map(|(layer, names)| Some([layer, names.iter().position(|name| *name == module)?]))
@@ -172,10 +170,9 @@ fn planted_faults_are_found() {
         (&[("accel", "#[cfg(test)]\nmod tests {\n    use crate::registry::Registry;\n}\n")], &[]),
         (&test_file, &[]),
         (&[("attic", "")], &["the module \"attic\" has no layer: add it to tests/layers.rs"]),
-        // Structures do not import each other; within a layer, modules import only earlier ones.
+        // Structures do not import each other. Within a layer, modules import only earlier ones.
         (&[("bvh8", "use crate::kdtree::KdTree;")], &["bvh8 imports kdtree"]),
         (&[("scene", "use crate::oracle::Tree;")], &["scene imports oracle"]),
-        // Crates that only one folder may import.
         (&[("scene::loaded", "use gltf::{Document, json};")], &["scene::loaded imports gltf"]),
         (&[("scene", "use ::gltf as reader;\nuse gltf;")], &["scene imports gltf"]),
         (&[("cli", "fn f() { tobj::load_obj(path) }")], &["cli imports tobj"]),

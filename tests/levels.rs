@@ -1,5 +1,6 @@
-//! All SIMD levels return the same hits, bit for bit, and the same counts. On every level, packets and interleaved rays
-//! return the same hits as single rays.
+//! Compares the hits and counts of all SIMD levels, bit for bit.
+//!
+//! On every level, packets and interleaved rays must return the hits of single rays.
 //!
 //! Each test runs in a separate process, because it sets the SIMD level of the whole process.
 
@@ -20,7 +21,7 @@ use sahara::validate::{Stratum, degenerate_meshes};
 
 use crate::alone::alone;
 
-/// The results for a ray: bits of `t` and primitive number of the closest hit, and the result of any hit.
+/// Bits of `t` and primitive number of the closest hit, and the result of the any-hit query.
 type Answer = (Option<(u32, u32)>, bool);
 
 fn answers(closest: Vec<Option<Hit>>, any: Vec<bool>) -> Vec<Answer> {
@@ -56,7 +57,7 @@ fn all_levels_return_the_same() {
     let registry = Registry::builtin();
     let levels = Level::available();
     if let [level] = &levels[..] {
-        // A single level cannot be compared. Write to the stream: the harness hides `eprint!` in a passing test.
+        // Write to the stream, because the test harness hides `eprint!` in a passing test.
         let note = format!("\nwarning: this machine or build has only the level {level}: levels are not compared\n");
         std::io::stderr().write_all(note.as_bytes()).expect("a sentence is written");
     }
@@ -78,13 +79,13 @@ fn all_levels_return_the_same() {
     assert!(hits > 20_000, "too few hits for a meaningful test: {hits}");
 }
 
-/// Adversarial rays: in their original order, sorted by octant to form packets, and in groups of sixteen similar rays.
+/// Adversarial rays in their original order, sorted by octant, and in groups of sixteen similar rays.
 fn bundles(mesh: &Mesh) -> Vec<Ray> {
     let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 6, 5)).collect();
     let mut sorted = mixed.clone();
     sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
-    // Sixteen similar rays, some with intervals that end within the scene. If `is_equal` is false, the lengths of their
-    // directions differ a lot: error bounds may then decide the hits of long directions, but not of short ones.
+    // If `is_equal` is false, the lengths of the directions differ much. Error bounds may then decide the hits of only
+    // some rays.
     let neighbours = |is_equal: bool| {
         let step = move |i: u32, ray: &Ray| {
             let longer = if is_equal { 1.0 } else { (3.0 * i as f32).exp2() };
@@ -97,7 +98,7 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     [mixed.clone(), sorted, neighbours(true), neighbours(false)].concat()
 }
 
-/// Triangles on a coarse grid. Rays hit many of them at one `t`, also at 0 and -0, meet edges, or lie in planes.
+/// Triangles on a coarse grid. Rays hit many of these triangles at one `t`.
 fn coarse() -> Arc<Mesh> {
     let mut random = Pcg32::seed_from_u64(8);
     let mut corner = || Vec3::from_array(std::array::from_fn(|_| (random.next_u32() % 4) as f32 - 1.0));
@@ -105,7 +106,7 @@ fn coarse() -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap())
 }
 
-/// Groups of sixteen rays from one grid point, with directions in one octant. Some rays end at integer coordinates.
+/// Groups of sixteen rays from one grid point, with directions in one octant.
 fn from_the_grid() -> Vec<Ray> {
     let mut random = Pcg32::seed_from_u64(9);
     let mut rays = vec![];
@@ -152,7 +153,7 @@ fn packets_and_interleaved_rays_return_what_single_rays_do() {
         for (name, rays, mesh) in &cases {
             let single = traced(&*build(structure, mesh), rays);
             let together = build(&format!("{structure},batch=packets"), mesh);
-            // Only large trees interleave the rays outside packets; the trees of the Dragon must be large enough.
+            // Only large trees interleave rays outside packets, so the trees of the Dragon must be large enough.
             assert!(name != "Dragon" || together.footprint().total() > 3 << 20, "{structure}");
             for level in Level::available() {
                 level.choose();

@@ -21,6 +21,6 @@ mod properties;
 mod real_meshes;
 mod third_party;
 
-/// The allocator of the command; tests measure memory with it.
+/// Tests measure memory with this allocator.
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;

@@ -1,4 +1,4 @@
-//! Compares the fast oracle (`Oracle`) with the slow one (`nearest`), on degenerate meshes, two scenes, every stratum.
+//! Compares the fast oracle (`Oracle`) with the slow oracle (`nearest`).
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use sahara::geometry::{Mesh, Ray};
 use sahara::oracle::{Oracle, nearest};
 use sahara::validate::{Stratum, degenerate_meshes};
 
-/// Checks that both oracles return the same exact `t` and set of triangles. Returns the number of rays with a hit.
+/// Returns the number of rays with a hit.
 fn agree(mesh: &Arc<Mesh>, rays: impl IntoIterator<Item = Ray>, name: &str) -> usize {
     let oracle = Oracle::new(mesh);
     let mut hits = 0;

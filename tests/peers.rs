@@ -1,5 +1,6 @@
-//! The peers whose features are on: their correct hits, and their known defects by name and cause. The tests fail if a
-//! listed defect disappears (then remove it from the list) or if a new defect appears.
+//! Tests that the peers have correct hits, except for the known defects.
+//!
+//! If a listed defect disappears, remove it from the list.
 #![cfg(any(feature = "peer-bvh", feature = "peer-embree", feature = "peer-parry", feature = "peer-tinybvh"))]
 
 use std::panic::{self, AssertUnwindSafe};
@@ -29,7 +30,7 @@ const PEERS: [&str; 12] = [
     "embree-robust:packet=16",
 ];
 
-/// The peer; if it is absent, prints the reason and returns `None`.
+/// `None` if the peer is absent.
 fn present(spec: &str) -> Option<Choice> {
     let registry = Registry::builtin();
     let is_on = registry.names().contains(&spec.split(':').next().unwrap());
@@ -41,7 +42,6 @@ fn present(spec: &str) -> Option<Choice> {
     choice.filter(|_| absence.is_none())
 }
 
-/// The meshes that the peer admits.
 fn meshes(choice: &Choice) -> Vec<Named> {
     let mut meshes = findings::meshes();
     meshes.retain(|(_, mesh)| !matches!(choice.build(mesh), Err(BuildError::Mesh(_))));
@@ -49,7 +49,7 @@ fn meshes(choice: &Choice) -> Vec<Named> {
     meshes
 }
 
-/// Peers whose errors are the same with every instruction set, and their strata without an error.
+/// Peers whose errors do not depend on the instruction set, and their strata without an error.
 const CLEAN: [CleanStrata; 2] = {
     use Stratum::{Invalid, Lengths, NearSurface, Random, RoundedEnds, Windows};
     [

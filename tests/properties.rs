@@ -19,7 +19,7 @@ fn built((name, keys): (&str, &str), mesh: &Arc<Mesh>) -> Box<dyn DynAccel> {
     Registry::builtin().choose(&format!("{name}:test=moller-trumbore,{keys}")).unwrap().build(mesh).unwrap()
 }
 
-/// Meshes of fewer than `most` triangles, with coordinates from `number`; most triangles share corners.
+/// Meshes of fewer than `most` triangles. Most triangles share corners.
 fn meshes(number: impl Strategy<Value = f32> + Clone, most: usize) -> impl Strategy<Value = Arc<Mesh>> {
     let point = prop::array::uniform3(number).prop_map(Vec3::from_array);
     (prop::collection::vec(point, 3..40), prop::collection::vec(any::<[prop::sample::Index; 3]>(), 0..most)).prop_map(
@@ -41,7 +41,6 @@ fn integers() -> impl Strategy<Value = f32> + Clone {
     prop_oneof![9 => (-4_i8..=4).prop_map(f32::from), 1 => Just(-0.0_f32)]
 }
 
-/// Cases that the fuzzer reads from random bytes.
 fn cases() -> impl Strategy<Value = Case> {
     prop::collection::vec(any::<u8>(), 0..1600).prop_map(|bytes| Case::read(&bytes))
 }
@@ -94,8 +93,8 @@ fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
 proptest! {
     #![proptest_config(config())]
 
-    /// Intervals begin or end at hits and multiples of 1/2. All structures must return the hits of the oracle. On this
-    /// grid, `t` is a fraction with a small denominator: it rounds to a multiple of 1/2 only if it is this multiple.
+    /// Intervals begin or end at hits and at multiples of 1/2. On this grid, an exact `t` that rounds to a multiple of
+    /// 1/2 equals this multiple.
     #[test]
     fn on_an_integer_grid_every_structure_is_exact_and_intervals_are_half_open(
         mesh in meshes(integers(), 60),
@@ -105,7 +104,7 @@ proptest! {
         let mut windowed = rays.clone();
         for ray in &rays {
             windowed.push(Ray { t_min: f32::from(ends.0) / 2.0, t_max: f32::from(ends.1) / 2.0, ..*ray });
-            // Skip hits whose exact `t` is no float: an interval cannot end exactly there.
+            // Skip hits whose exact `t` is not a float, because an interval cannot end there.
             let Some(t) = oracle::nearest(ray, &mesh).map(|truth| truth.t) else { continue };
             if t.compare(t.round()) == Some(std::cmp::Ordering::Equal) {
                 let (at, behind) = (t.round(), t.round().next_up());
@@ -116,7 +115,7 @@ proptest! {
         all_are_exact(&mesh, &windowed)?;
     }
 
-    /// If mesh and rays are scaled by a power of two, all bits of `t` and the primitive stay the same.
+    /// Scaling mesh and rays by a power of two changes no bit of a hit.
     #[test]
     fn powers_of_two_change_nothing(mesh in meshes(-2.0_f32..2.0, 40), rays in rays(-2.0_f32..2.0, 40), k in -12_i32..12) {
         let scale = libm::scalbnf(1.0, k);
@@ -148,7 +147,6 @@ proptest! {
         ..config()
     })]
 
-    /// Checks the properties of the fuzzer, on arbitrary floats.
     #[test]
     fn anything_is_answered_right(case in cases()) {
         if let Err(report) = case.check() {

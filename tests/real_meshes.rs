@@ -1,5 +1,7 @@
-//! The loaders and views on real meshes, which the suite does not contain. The environment variable `SAHARA_DATA` names
-//! a folder with the files; without it these tests print that they are skipped.
+//! Tests the loaders and views on real meshes, which the suite does not contain.
+//!
+//! The environment variable `SAHARA_DATA` names a folder with the files. Without this variable, the tests print that
+//! they are skipped.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +11,7 @@ use sahara::geometry::{Aabb, Mesh};
 use sahara::scene::{Model, Scene, SceneError, View, load};
 use sahara::triangle::MollerTrumbore;
 
-/// The folder in `SAHARA_DATA`. Without it, prints that the test of `name` is `treated`: "skipped" or "only read".
+/// `treated` is "skipped" or "only read", for the message if `SAHARA_DATA` is not set.
 fn folder(name: &str, treated: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("SAHARA_DATA").map(PathBuf::from);
     if folder.is_none() {
@@ -18,7 +20,7 @@ fn folder(name: &str, treated: &str) -> Option<PathBuf> {
     folder
 }
 
-/// The model and mesh of a file; `None` if there is no such file.
+/// `None` if the folder or the file is missing.
 fn real(name: &str) -> Option<(Model, Mesh)> {
     let path = folder(name, "skipped")?.join(name);
     if !path.is_file() {
@@ -70,7 +72,7 @@ const VIEWS: [(&str, std::ops::RangeInclusive<usize>); 6] = [
 
 #[test]
 fn the_views_look_at_their_meshes() {
-    // This view needs no file: a built-in mesh stands on a floor at y = 0.
+    // This view needs no file.
     let scene = Scene::read(Path::new("scenes/views/on-floor.toml"), Some(Path::new("/nowhere"))).unwrap();
     assert!(scene.name == "on-floor" && scene.mesh.bounds().min.y == 0.0 && !scene.shadow_terminator_fix);
     for (name, filled) in VIEWS {
@@ -85,7 +87,7 @@ fn the_views_look_at_their_meshes() {
             }
             scene => scene.unwrap(),
         };
-        // No fix: it would start shadow rays about one unit of length off the surface, perhaps behind the next wall.
+        // A shadow terminator fix would move the origins of shadow rays, perhaps behind the next wall.
         assert!(scene.name == name && !scene.shadow_terminator_fix);
         let tree = Bvh8::<MollerTrumbore>::build(&scene.mesh, &Bvh8Config::default()).unwrap();
         let view = scene.camera.view([128, 128]);

@@ -1,4 +1,4 @@
-//! Structures and a study of another crate: the suite treats them like its own, and detects broken structures.
+//! Tests structures and a study that another crate adds to the suite.
 
 use std::fs;
 use std::process::{Command, ExitCode, Stdio};
@@ -17,10 +17,9 @@ use third_party_structures::faulty::{self, Faulty, FaultyConfig};
 use third_party_structures::question::DUPLICATION;
 use third_party_structures::registry;
 
-use crate::cli::command::{Folder, assert_contains, said, unwrapped};
+use crate::cli::command::{Folder, assert_contains, output_texts, unwrapped};
 use crate::cli::journal::rows;
 
-/// Some of the degenerate meshes.
 fn meshes() -> Vec<Named> {
     let wanted = ["closed sphere", "soup", "nested shells", "crossing needles", "same centroid"];
     degenerate_meshes().into_iter().filter(|(name, _)| wanted.contains(&name.as_str())).collect()
@@ -64,12 +63,12 @@ fn a_short_stack_is_found_by_stacked_sheets() {
     assert!(of(faulty::Fault::OverflowedStack).unwrap_err().contains("8192 stacked sheets"));
 }
 
-/// Acts as the command of a crate with these structures: the tests below run this test in a separate process.
+/// The tests below run this test in a separate process, as the command of another crate.
 #[test]
 fn command() {
     let Some(args) = std::env::var_os("SAHARA_THIRD_PARTY") else { return };
     let args = args.into_string().unwrap();
-    // All built-in studies take minutes: run only this crate's study in `study all` and `report`.
+    // All built-in studies take minutes, so `study all` and `report` run only the study of this crate.
     let all = args.starts_with("study all") || args.starts_with("report");
     let studies = if all { Studies::empty() } else { Studies::builtin() };
     let suite = Suite { registry: registry(), studies: studies.with(DUPLICATION) };
@@ -78,7 +77,6 @@ fn command() {
     std::process::exit(if status == ExitCode::SUCCESS { 0 } else { 42 });
 }
 
-/// The output of the command in a folder, and whether it succeeds.
 fn sahara(folder: &Folder, args: &str) -> (String, bool) {
     let mut command = Command::new(std::env::current_exe().unwrap());
     command
@@ -88,12 +86,11 @@ fn sahara(folder: &Folder, args: &str) -> (String, bool) {
         .current_dir(folder.path(""))
         .stdin(Stdio::null());
     let output = command.output().unwrap();
-    let printed = said(&output).concat();
+    let printed = output_texts(&output).concat();
     assert!(matches!(output.status.code(), Some(0 | 42)), "{args}: {printed}");
     (printed, output.status.code() == Some(0))
 }
 
-/// Like [`sahara`], but the command must succeed and print all of `parts`.
 #[track_caller]
 fn content(folder: &Folder, args: &str, parts: &[&str]) -> String {
     let (printed, right) = sahara(folder, args);
@@ -126,8 +123,6 @@ fn the_command_rejects_each_fault_for_its_own_reason() {
     }
 }
 
-/// Checks the final sentence of `validate` for each fault of a BVH with its own triangle test. Ordinary rays reveal
-/// most of the faults.
 #[test]
 fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
     const LOSES: &str = "loses hits that no rounding explains";
@@ -231,7 +226,7 @@ fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
     assert_contains(&folder.read("d.json"), &["\"word\":\"staircase:64\""]);
     let csv = folder.read("d.csv");
     assert!(csv.starts_with("scene,structure,references_per_triangle\n") && csv.lines().count() == 5, "{csv}");
-    // A run with other settings adds cases to the journal. A job measures its case in a separate process.
+    // A run with other settings adds cases to the journal.
     content(folder, "study duplication -s grid --rays 256 --dir runs", &[]);
     let plan = content(folder, "study plan duplication -s sah-kd --rays 256 --dir jobs", &[]);
     // The test harness prints the test name before the first line of the plan.

@@ -1,4 +1,4 @@
-//! Scenes and structures by name, shared by the benches.
+//! Scenes and structures that the benches share.
 
 use std::sync::Arc;
 
@@ -7,15 +7,13 @@ use sahara::geometry::Mesh;
 use sahara::registry::{Choice, Registry};
 use sahara::scene::{Scene, WorkloadKind};
 
-/// The workloads of the bench target `traverse`.
 pub const KINDS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
-/// The scenes and batch strategies of the benchmarks `slices` in the bench target `traverse`.
+/// Scenes of the function `slices` in `benches/traverse.rs`.
 pub const SLICED: [&str; 2] = ["dragon", "lucy"];
 pub const BATCHES: [&str; 2] = ["single", "packets"];
 
-/// Two easy and all three hard built-in scenes, with generated meshes.
 pub fn scenes() -> Vec<Scene> {
     ["sphere", "teapot", "dragon", "lucy", "sponza"].map(scene).into()
 }
@@ -25,16 +23,16 @@ pub fn scene(name: &str) -> Scene {
     Builtin::find(name).and_then(|builtin| builtin.scene(None)).expect("built-in scenes are valid")
 }
 
-/// Prints the minimum duration of all benchmarks of `target`. Prints nothing in a test, or if the command line has a
-/// filter or an option.
+/// Prints the minimum duration of a bench target.
 pub fn announce(target: &str, scenes: &[Scene]) {
+    // Unlike `cargo test`, `cargo bench` passes the argument `--bench`.
     let mut arguments = std::env::args().skip(1);
     if arguments.next().as_deref() != Some("--bench") || arguments.next().is_some() {
         return;
     }
     let structures: usize = scenes.iter().map(|scene| structures(&scene.mesh).len()).sum();
     let slices = SLICED.len() * BATCHES.len() * KINDS.len();
-    // Criterion warms up for three seconds and measures for five; slow benches take longer.
+    // Criterion needs at least eight seconds per benchmark.
     let minutes = |benches: usize| (8 * benches).div_ceil(60);
     let [build, traverse] = [structures, structures * KINDS.len() + slices].map(minutes);
     let own = if target == "build" { build } else { traverse };
@@ -45,8 +43,6 @@ pub fn announce(target: &str, scenes: &[Scene]) {
     );
 }
 
-/// Every structure over its default triangle test. Omits peers whose library is absent. On meshes of at least 10,000
-/// triangles, also omits brute force.
 pub fn structures(mesh: &Arc<Mesh>) -> Vec<Choice> {
     let registry = Registry::builtin();
     let names = registry.names().into_iter().filter(|&name| name != "brute-force" || mesh.len() < 10_000);

@@ -1,4 +1,4 @@
-//! `study all`: runs all studies. The same command resumes a killed run with the case that it was measuring.
+//! The command `study all`: runs all studies.
 
 use std::ffi::OsString;
 use std::time::Instant;
@@ -35,7 +35,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     let keeping = Keeping { dir: Some(dir.clone()), ..args.keeping.clone() };
     let common = Common { keeping, ..Common::default() };
     if !args.scenes.is_empty() {
-        // Reject missing scenes before any study is measured.
+        // Reject a missing scene before the first measurement.
         let _waiting = spinner("loading scenes", terminal);
         scenes(&suite.registry, &args.scenes)?;
     }
@@ -44,14 +44,14 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     for (i, study) in studies.iter().enumerate() {
         let rest: Vec<&str> = studies[i + 1..].iter().map(|study| study.name).collect();
         let left = if rest.is_empty() { "nothing".into() } else { rest.join(", ") };
-        terminal.tell(&format!("{}; remaining: {left}", study.name));
+        terminal.print_message(&format!("{}; remaining: {left}", study.name));
         let start = Instant::now();
         let preset = if args.quick { study.presets.quick } else { study.presets.full };
         let words = study.preset(preset, &args.scenes);
         let found = study.matches(&words).map_err(anyhow::Error::from);
         let found = match found.and_then(|matches| run_as(session, study, &matches, &common)) {
             Err(error) if !ends_all(&error) => {
-                crate::output::tell_error(format_args!("{}: {error:#}", study.name));
+                crate::output::print_error(format_args!("{}: {error:#}", study.name));
                 Status::Failed
             }
             found => found?,
@@ -71,19 +71,17 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
     }
     let left = match outcome {
         Status::Failed => "The same command retries what failed.",
-        // `Status::Wrong` takes precedence over `Status::Failed`, so measurements may have failed as well.
+        // If the outcome is `Status::Wrong`, some measurements may also have failed.
         Status::Wrong => "The same command retries anything that failed.",
         _ => "Everything is measured.",
     };
     let dir = dir.escaped();
-    // The times do not include cases that earlier runs have measured.
     let table = Table::of_texts(&format!("All studies in {dir}"), ["study", "time taken", "result", "journal"], rows);
     terminal.print_table(&table.noted([format!("{left} `sahara report {dir} -o OUT` writes the page.")]));
     Ok(outcome)
 }
 
-/// Whether later studies would fail with the same error: the folder of journals is not writable, or another run is
-/// using it.
+/// Whether all later studies would fail with the same error.
 fn ends_all(error: &anyhow::Error) -> bool {
     let of_journal = error.downcast_ref::<JournalError>();
     matches!(of_journal, Some(JournalError::Write { .. } | JournalError::Place(_) | JournalError::Busy(_)))

@@ -1,4 +1,4 @@
-//! `completions`: completion scripts for shells, and the manual page.
+//! The command `completions`: prints a shell completion script or the manual page.
 
 use clap_complete::Shell;
 use clap_mangen::Man;
@@ -23,7 +23,7 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
 fn text(suite: &Suite, form: &str) -> anyhow::Result<String> {
     let (mut output, mut command) = (vec![], super::shown(&suite.studies));
     let Ok(shell) = form.parse::<Shell>() else {
-        // The manual page of the command, then the pages of its subcommands.
+        // `man` is the only form that is not a shell.
         command = command.disable_help_subcommand(true).after_long_help(STATUSES);
         command.build();
         Man::new(command.clone()).render(&mut output)?;

@@ -9,7 +9,6 @@ use crate::request::{OUTPUT, STRUCTURES};
 use crate::study::Status;
 use crate::study::diff::{Comparison, Side, cautions, read, sentences, settings, tables, unlike};
 
-/// The help heading of the options that decide the exit status.
 const GATE: &str = "Gate";
 
 #[derive(Debug, clap::Args)]

@@ -1,4 +1,4 @@
-//! Checks that the parser of the command line accepts every command in a document of this repository.
+//! A test that parses the `sahara` commands in the Markdown files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,6 @@ use clap::error::ErrorKind;
 
 use crate::study::Studies;
 
-/// The files below `folder` whose names end with `ending`, with their texts. Skips build folders and hidden folders.
 pub fn files(folder: &Path, ending: &str) -> Vec<(PathBuf, String)> {
     let mut found = vec![];
     for entry in fs::read_dir(folder).unwrap() {
@@ -23,8 +22,7 @@ pub fn files(folder: &Path, ending: &str) -> Vec<(PathBuf, String)> {
     found
 }
 
-/// The commands of a document: first the commands in blocks of code, with their continuation lines, then the commands
-/// in backticks within sentences.
+/// Returns the commands in code blocks and the commands in inline code.
 fn commands(text: &str) -> (Vec<String>, Vec<String>) {
     let text = &text.replace("\\\n", " ");
     let own = |text: &str| {
@@ -37,7 +35,7 @@ fn commands(text: &str) -> (Vec<String>, Vec<String>) {
     };
     let code = text.split("```").skip(1).step_by(2).flat_map(str::lines);
     let lines = code.map(|line| line.split("  #").next().unwrap_or(line)).map(str::trim).filter_map(own);
-    // Skip commands with placeholders, and lines of the runner protocol, which also begin with `sahara`.
+    // Skip text that contains a placeholder or a line break.
     let is_command = |span: &&str| {
         span.starts_with("sahara ") && !["NAME", "THREADS", "JSON", "\n"].iter().any(|other| span.contains(other))
     };
@@ -52,7 +50,7 @@ fn commands_of_documents_are_understood() {
         let words = words.into_iter().take_while(|word| !word.starts_with(['#', '>', '|']));
         super::command(&Studies::builtin()).try_get_matches_from(words)
     };
-    // Sentences may name commands without their arguments.
+    // A command in inline code may omit required arguments.
     let partial = [ErrorKind::MissingRequiredArgument, ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand];
     let mut understood = 0;
     for (path, text) in files(Path::new(env!("CARGO_MANIFEST_DIR")), ".md") {

@@ -1,4 +1,4 @@
-//! The exit status of the command.
+//! The exit status of the command `sahara`.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -10,7 +10,6 @@ use crate::escaped::Escaped as _;
 use crate::output;
 use crate::study::{Status, StudyError};
 
-/// The exit statuses, for the help of commands.
 pub(crate) const STATUSES: &str = "\
 Exit status:
   0    correct
@@ -25,7 +24,7 @@ Wrong hits of structures of other projects (obvhs, Embree, tinybvh, bvh, parry)
 with known defects do not change the status; tables name the defects. `-` as an
 output file is standard output; tables and messages then go to standard error.";
 
-/// Prints the error of a result, if it has one, and returns the exit code.
+/// Returns the exit code of a result. Prints the error of a failed result.
 pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
     ended(match found {
         Ok(Status::Right) => 0,
@@ -36,46 +35,44 @@ pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
         Ok(Status::Refused) => 5,
         Ok(Status::Interrupted) => return interrupt::end(),
         Err(error) => match error.downcast::<clap::Error>() {
-            Ok(message) => return told(message),
+            Ok(message) => return print_clap_message(message),
             Err(error) => {
-                output::tell_error(format_args!("{error:#}"));
+                output::print_error(format_args!("{error:#}"));
                 of_error(&error)
             }
         },
     })
 }
 
-/// Returns `status`. If standard output could not be written, prints an error and returns at least 1.
 fn ended(status: u8) -> ExitCode {
     let Some(cause) = output::FAILURE.get() else { return ExitCode::from(status) };
-    output::tell_error(format_args!("cannot write to standard output: {cause}"));
+    output::print_error(format_args!("cannot write to standard output: {cause}"));
     ExitCode::from(status.max(1))
 }
 
-/// The exit status of an error: 2 if wrong hits have left a study without a result, otherwise 1.
 fn of_error(error: &anyhow::Error) -> u8 {
     let is_wrong = error.downcast_ref::<StudyError>().is_some_and(StudyError::is_wrong_hit);
     if is_wrong { 2 } else { 1 }
 }
 
-/// Prints a message of clap. Returns 0 for help and version, 1 for errors.
-pub(super) fn told(message: clap::Error) -> ExitCode {
+/// Prints a message of clap. The message is an error, the help or the version.
+pub(super) fn print_clap_message(message: clap::Error) -> ExitCode {
     if let (ErrorKind::UnknownArgument, Some(ContextValue::String(option))) =
         (message.kind(), message.get(ContextKind::InvalidArg))
         && let Err(sentence) = moved::check("option", &moved::OPTIONS, option.split('=').next().unwrap_or(option))
     {
-        output::tell_error(sentence);
+        output::print_error(sentence);
         return ended(1);
     }
     let message = shown(message);
     let printed = message.print().and_then(|()| io::stdout().flush());
     if !message.use_stderr() {
-        output::note(printed);
+        output::record_failure(printed);
     }
     ended(message.use_stderr().into())
 }
 
-/// Escapes the user's text in a message, and removes the tip to pass an option after `--`, which no command accepts.
+/// Escapes the user's text in a message of clap. Removes the tip to pass an option as a value.
 fn shown(mut message: clap::Error) -> clap::Error {
     let context: Vec<(ContextKind, ContextValue)> =
         message.context().map(|(kind, value)| (kind, value.clone())).collect();
@@ -96,8 +93,8 @@ mod tests {
 
     #[test]
     fn an_error_that_is_a_wrong_answer_has_the_status_of_wrong_answers() {
-        let told = |wrong_answer| StudyError::Reported { sentence: "why".into(), of_one_scene: true, wrong_answer };
-        assert_eq!([true, false].map(|wrong| of_error(&told(wrong).into())), [2, 1]);
+        let reported = |wrong_answer| StudyError::Reported { sentence: "why".into(), of_one_scene: true, wrong_answer };
+        assert_eq!([true, false].map(|wrong| of_error(&reported(wrong).into())), [2, 1]);
         assert_eq!(of_error(&anyhow::anyhow!("no such file")), 1);
     }
 }

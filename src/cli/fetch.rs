@@ -35,7 +35,6 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
         scene.objects.into_iter().filter_map(|object| object.real).map(move |real| (scene.name.clone(), real))
     };
     let files = scenes(&args.scenes)?.into_iter().flat_map(real_meshes);
-    // A file that a scene uses several times counts once.
     let files = each_once_by(files, |one, other| (&one.0, &one.1.file) == (&other.0, &other.1.file));
     if files.is_empty() {
         terminal.print("these scenes use no real mesh: nothing to fetch\n");
@@ -55,7 +54,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
             continue;
         }
         if let Err(error) = fetch(real, &folder, terminal) {
-            crate::output::tell_error(format_args!("{error:#}"));
+            crate::output::print_error(format_args!("{error:#}"));
             failed += 1;
         }
     }

@@ -1,6 +1,7 @@
-//! Ctrl-C and SIGTERM. At the first Ctrl-C, a run that measures stops, and prints and saves its results. At the second
-//! Ctrl-C, it ends at once. All other commands end at the first Ctrl-C. SIGTERM ends every command at once, because its
-//! senders (`timeout`, schedulers) do not wait.
+//! Handles Ctrl-C and SIGTERM on Linux.
+//!
+//! After `listen(true)`, the first Ctrl-C only requests a stop. A stopped run prints and saves its results. The second
+//! Ctrl-C ends the process at once. SIGTERM ends the process at once.
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -9,13 +10,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[cfg(target_os = "linux")]
 use nix::sys::signal::{SigSet, Signal, raise};
 
-/// Whether Ctrl-C asks a run to stop instead of ending the process at once.
+/// Whether the first Ctrl-C only requests a stop. Otherwise the first Ctrl-C ends the process at once.
 static LISTENS: AtomicBool = AtomicBool::new(false);
 static ASKED: AtomicBool = AtomicBool::new(false);
-/// Whether a signal is ending this process.
 static ENDING: AtomicBool = AtomicBool::new(false);
 
-/// Starts a thread that waits for SIGINT and SIGTERM. Call it first, because earlier threads might receive the signals.
+/// Starts a thread that waits for SIGINT and SIGTERM. Call this function before the process starts other threads. A
+/// thread that already runs could receive the signals.
 pub fn watch() {
     #[cfg(target_os = "linux")]
     {
@@ -31,27 +32,26 @@ pub fn watch() {
                 if !may_stop || ASKED.swap(true, Ordering::SeqCst) {
                     end_by(signal, signals);
                 }
-                crate::output::tell(format_args!("\nStopping; press Ctrl-C again to quit now."));
+                crate::output::print_message(format_args!("\nStopping; press Ctrl-C again to quit now."));
                 crate::study::process::end();
             }
         });
     }
 }
 
-/// Ends the programs that this process has started, then stops catching `signal` and sends it to this process. A shell
-/// that runs a script ends the script only if a signal ended the command.
+/// Ends the programs that this process started. Then ends this process by `signal`. After an ordinary exit, a calling
+/// shell script would continue.
 #[cfg(target_os = "linux")]
 fn end_by(signal: Signal, caught: SigSet) -> ! {
     ENDING.store(true, Ordering::SeqCst);
     crate::measure::process_group::end_started_by(std::process::id());
     let _ = caught.thread_unblock().and_then(|()| raise(signal));
-    // The first process of a container survives the signal: exit.
+    // The signal does not end the first process of a container.
     std::process::exit(128 + signal as i32);
 }
 
-/// The signals that this process ignores since its start, one bit per signal. For example, shells start background jobs
-/// that ignore SIGINT. `watch` must not wait for these signals: its thread would receive them although they are
-/// ignored.
+/// The signals that this process ignores, as a mask with one bit per signal. `SigSet::wait` would return an ignored
+/// signal, so `watch` excludes ignored signals.
 #[cfg(target_os = "linux")]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
@@ -59,7 +59,7 @@ fn ignored() -> u64 {
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
 }
 
-/// Ends the process after a stopped run has printed and saved its results.
+/// Ends the process of an interrupted run.
 pub fn end() -> ExitCode {
     let _ = std::io::stdout().flush();
     #[cfg(target_os = "linux")]
@@ -68,8 +68,8 @@ pub fn end() -> ExitCode {
     ExitCode::from(130)
 }
 
-/// Waits forever if a signal is ending this process. The thread of [`watch`] first ends the started programs, which
-/// causes errors here. These errors must not decide the exit status.
+/// If a signal is ending this process, waits forever. The end of a started program can cause an error in the calling
+/// thread. This error must not decide the exit status.
 pub fn wait_for_end() {
     while ENDING.load(Ordering::SeqCst) {
         std::thread::park();
@@ -80,7 +80,6 @@ pub fn is_asked() -> bool {
     ASKED.load(Ordering::SeqCst)
 }
 
-/// Sets whether the first Ctrl-C stops a run (`listens` is true) or ends the process at once.
 pub fn listen(listens: bool) {
     LISTENS.store(listens, Ordering::SeqCst);
 }

@@ -1,4 +1,4 @@
-//! The command `list`: prints the names of scenes, structures and studies, and the options of a structure.
+//! The command `list`: prints names or the options of one structure.
 
 use super::Suite;
 use super::terminal::Terminal;
@@ -65,7 +65,7 @@ fn names(suite: &Suite) -> Table {
         ("views", ViewKind::ALL.map(ViewKind::name).into()),
         ("studies", suite.studies.iter().map(|study| study.name).collect()),
     ];
-    // Print the names as notes, because notes are wrapped and cells are not.
+    // Unlike the cells of a table, notes are wrapped.
     let notes = lines.into_iter().map(|(what, names): (&str, Vec<&str>)| format!("{what}: {}.", names.join(", ")));
     let more = format!("More: `sahara list STRUCTURE` (its options), or: {}.", KINDS.join(", "));
     Table { title: "Names".into(), ..Table::default() }.noted(notes.chain([more]))
@@ -85,7 +85,6 @@ fn scenes() -> anyhow::Result<Table> {
     Ok(Table::of_texts("Scenes", ["name", "difficulty", "triangles", "lights", "mirrors", "meshes"], rows))
 }
 
-/// One row per structure: its triangle tests, the default first, and the features that it does not support by design.
 fn structures(registry: &Registry) -> Table {
     let (mut rows, mut notes) = (vec![], vec![]);
     for name in registry.names() {
@@ -115,7 +114,6 @@ fn declined(entry: &Entry) -> Vec<&'static str> {
     declined
 }
 
-/// Sentences about a structure: its deliberate deviations from the contract, and the reason why it is not available.
 fn remarks(entry: &Entry) -> impl Iterator<Item = String> {
     let (name, conventions) = (&entry.name, entry.conventions.join("; "));
     let deviation = format!("{name} deviates by design from the contract of `Accel`: {conventions}.");
@@ -130,13 +128,13 @@ fn keys(registry: &Registry, name: &str) -> Table {
     let test = [String::from("test"), tests[0].into(), "the triangle test".into(), tests.join(", ")];
     let key = |key: crate::registry::Key| [key.name, key.default, key.meaning.into(), key.values];
     let rows = std::iter::once(test).chain(first.keys().into_iter().map(key));
-    // Long lists of values stand below the table, where lines are wrapped.
+    // Long lists of values become notes. Unlike the cells of a table, notes are wrapped.
     let (mut shown, mut notes) = (vec![], vec![]);
     for [key, default, meaning, values] in rows {
         let short = values.chars().count() <= 28;
         shown.push([key.clone(), default, if short { values.clone() } else { "see below".into() }]);
-        let said = [meaning, if short { String::new() } else { values }];
-        let words = said.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(": ");
+        let parts = [meaning, if short { String::new() } else { values }];
+        let words = parts.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(": ");
         if !words.is_empty() {
             notes.push(format!("{key}: {words}."));
         }

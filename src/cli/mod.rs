@@ -1,6 +1,4 @@
 //! The command `sahara`.
-//!
-//! Results go to stdout, progress and errors to stderr. `sahara COMMAND --help` lists the exit statuses.
 
 mod all;
 mod completions;
@@ -45,7 +43,8 @@ use crate::study::{Case, Status, Studies, Study};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
 
-/// The template of `sahara --help`. To fit 80 x 24 characters with a prompt, it omits the global options.
+/// The template of `sahara --help`. The help and a prompt must fit 80 x 24 characters. The template therefore omits the
+/// global options.
 const SCREEN: &str = "\
 {about}
 
@@ -71,7 +70,7 @@ impl From<Registry> for Suite {
     }
 }
 
-/// The position of global options: after the options of each command.
+/// The display order of global options, after the options of each command.
 const GLOBAL: usize = 900;
 
 /// Options of all commands.
@@ -93,7 +92,8 @@ struct Global {
     level: Option<Level>,
 }
 
-// Options for processes that a run starts. No doc comment: clap would use it as the description of the command.
+// Options of the processes that a run starts. Clap would show a doc comment of `Process` as the description of
+// `sahara`.
 #[derive(Debug, clap::Args)]
 struct Process {
     /// Measure this case (used by runs and schedulers)
@@ -117,11 +117,11 @@ fn read_case(text: &str) -> Result<Case, String> {
 struct Session<'a> {
     suite: &'a Suite,
     terminal: &'a Terminal,
-    /// The options of the process that a run starts for each case. `None` if this process measures all cases.
+    /// Each case is measured by a new process that receives these options. If `None`, this process measures all cases.
     processes: Option<&'a [OsString]>,
 }
 
-// The commands that are not studies. No doc comment: clap would use it as the description of the command.
+// The commands that are not studies. Clap would show a doc comment of `Command` as the description of `sahara`.
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Compare two runs, or fail on a regression
@@ -147,21 +147,19 @@ enum Command {
     Completions(completions::Args),
 }
 
-/// The studies that are top-level commands.
 const COMPARE: &str = "compare";
 const REPLICATE: &str = "replicate";
 
 const STUDY: &str = "study";
 const REPORT: &str = "report";
 
-/// The message for commands and options that need the feature `page`, if it is missing.
 pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `page`: rebuild it with `--features page`";
 
 /// The commands that the help lists.
 fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
     let command = Global::augment_args(whole)
-        // The doc comment of `Global` has become the description: replace it.
+        // Replace the description that `augment_args` took from the doc comment of `Global`.
         .about("Benchmark, validate and image-test ray-tracing acceleration structures.")
         .long_about(None)
         .override_usage("sahara [COMMAND] [OPTIONS]  (no command: compare on the built-in scenes)")
@@ -172,7 +170,7 @@ fn shown(studies: &Studies) -> clap::Command {
         .about("Run a study, or plan its jobs for a cluster")
         .subcommand_required(true)
         .arg_required_else_help(true)
-        // The function `find` reports an unknown study and lists the known studies.
+        // The function `find` reports unknown studies.
         .allow_external_subcommands(true)
         .subcommand(all::Args::augment_args(clap::Command::new(all::NAME)))
         .subcommand(plan::Args::augment_args(clap::Command::new(plan::NAME)))
@@ -180,7 +178,7 @@ fn shown(studies: &Studies) -> clap::Command {
     Command::augment_subcommands(command.subcommand(listed))
 }
 
-/// All commands and options. Options for started processes, and removed names, are hidden.
+/// The complete command line, including hidden commands and hidden options.
 fn command(studies: &Studies) -> clap::Command {
     let child = clap::Command::new(validate::CHILD).hide(true);
     let command = Process::augment_args(shown(studies)).subcommand(validate::ChildArgs::augment_args(child));
@@ -189,19 +187,18 @@ fn command(studies: &Studies) -> clap::Command {
     let command = command.subcommands(moved::COMMANDS.iter().map(old));
     let command = if cfg!(feature = "page") { command } else { command.subcommand(old(&(REPORT, NO_PAGE))) };
     let mut command = command.mut_subcommands(with_statuses);
-    // `build` adds the command `help`. Hide it: its line would leave no space for a prompt.
+    // `build` adds the command `help`. Hide the command `help` to shorten the help.
     command.build();
     command.mut_subcommand("help", |help| help.hide(true))
 }
 
-/// Adds the exit statuses to the long help of a command and its subcommands. Skips a help with another text at its end.
 fn with_statuses(command: clap::Command) -> clap::Command {
     let has_end = command.get_after_help().is_some();
     let command = command.mut_subcommands(with_statuses);
     if has_end { command } else { command.after_long_help(exit_status::STATUSES) }
 }
 
-/// Runs the command line of this process with a [`Suite`]. A [`Registry`] is a suite with the studies of this crate.
+/// Runs the command line of this process. A [`Registry`] is converted into a suite with the built-in studies.
 pub fn main(suite: impl Into<Suite>) -> ExitCode {
     interrupt::watch();
     run_with(&suite.into(), std::env::args_os(), true)
@@ -210,14 +207,13 @@ pub fn main(suite: impl Into<Suite>) -> ExitCode {
 const PANIC: &str = "the panic above ended the command: if a structure caused it, omit the structure, or find the mesh or ray with \
                      `sahara validate`; otherwise it is a bug in sahara";
 
-/// Runs `args`, whose first element is the name of the program. Measures all cases in this process: separate processes
-/// would run the calling program with the option `--case`, which it may not accept.
+/// Runs the command line `args`. The first argument is the name of the program. All cases are measured in this process.
 pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
     run_with(suite, args, false)
 }
 
 fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_processes: bool) -> ExitCode {
-    // Record the start of the run, which is the date of all its measurements.
+    // The first call of `started` sets the date of all measurements.
     program::started();
     let args: Vec<OsString> = args.into_iter().collect();
     let parsed = command(&suite.studies).try_get_matches_from(&args);
@@ -225,13 +221,13 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     let (global, process, matches) = match parsed.and_then(options) {
         Ok(parsed) => parsed,
         Err(message) if message.kind() == ErrorKind::InvalidUtf8 => return exit_status::of(Err(not_text(&args))),
-        Err(message) => return exit_status::told(message),
+        Err(message) => return exit_status::print_clap_message(message),
     };
     if let Some(level) = global.level {
         level.choose();
     }
     let terminal = Terminal::new(global.color, global.quiet, global.verbose);
-    // A child of `validate --hard` reports a panic to its parent by its exit status: do not catch it.
+    // A child of `validate --hard` must end with the exit status of a panic.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
     let level = global.level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from);
     let processes: Option<Vec<OsString>> = starts_processes.then(|| level.collect());
@@ -240,11 +236,10 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
         (Some(case), Some(out)) => measure_case(&session, &process, case, out, args.clone()),
         _ => dispatch(&session, &matches, &global).inspect(|_| terminal.print_note_count()),
     };
-    // Some commands cannot continue after a panic of a structure: catch it here, and report it as an error.
     let found = if may_panic { Ok(run()) } else { catch_unwind(AssertUnwindSafe(run)) };
     interrupt::wait_for_end();
     exit_status::of(found.unwrap_or_else(|_| {
-        panics::uncaught().iter().for_each(crate::output::tell);
+        panics::uncaught().iter().for_each(crate::output::print_message);
         Err(anyhow::anyhow!(PANIC))
     }))
 }
@@ -254,7 +249,6 @@ fn not_text(args: &[OsString]) -> anyhow::Error {
     anyhow::anyhow!("{} is not UTF-8 text: only names of files and folders may contain such bytes", names.join(" or "))
 }
 
-/// Measures one case, for the run that has started this process or for a scheduler.
 fn measure_case(
     &Session { suite, terminal, .. }: &Session,
     process: &Process,
@@ -271,7 +265,7 @@ fn measure_case(
         return Ok(Status::Right);
     }
     if let Some(why) = measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::new(terminal, true))? {
-        crate::output::tell(format_args!("{} {why}", out.escaped()));
+        crate::output::print_message(format_args!("{} {why}", out.escaped()));
     }
     Ok(Status::Right)
 }

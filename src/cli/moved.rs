@@ -29,7 +29,6 @@ pub const OPTIONS: [(&str, &str); 2] = [
     ("--baseline", "use `sahara diff A.json B.json --fail-on-regression PERCENT`"),
 ];
 
-/// Rejects `name` if it is one of the removed `names`.
 pub fn check(kind: &str, names: &[(&str, &str)], name: &str) -> anyhow::Result<()> {
     match names.iter().find(|(old, _)| *old == name) {
         Some((name, now)) => anyhow::bail!("the {kind} `{name}` was removed; {now}"),

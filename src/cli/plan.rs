@@ -20,7 +20,6 @@ use crate::study::{Case, Status};
 
 pub const NAME: &str = "plan";
 
-/// Options that write the results of a whole study.
 const OUTPUTS: [&str; 4] = ["--export-json", "--export-csv", "--export-markdown", "--plot"];
 
 const NO_SCENE: &str = "--scenes needs a scene: --scenes SCENE..";
@@ -47,11 +46,12 @@ pub struct Args {
 }
 
 impl Args {
-    /// Returns the arguments of this command, including its options in `rest`; the names of studies; the options of the
-    /// studies. clap does not parse `rest`: this function rejects a repeated `--quick` or `--dir` with clap's message.
+    /// Returns the arguments of this command, the names of studies, and the options of the studies. clap does not check
+    /// the options in `rest`.
     fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut options) = (self.clone(), vec![]);
-        // clap parses options after `--scenes` as scenes, and the first option as the name if there is no name.
+        // After `--scenes`, clap parses options of studies as scenes. Without a name, clap parses the first option of a
+        // study as the name.
         let scenes = own.scenes.iter().take_while(|word| !word.starts_with("-")).count();
         let behind = own.scenes.split_off(scenes);
         anyhow::ensure!(scenes > 0 || behind.is_empty(), NO_SCENE);
@@ -113,12 +113,12 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let studies = if whole { suite.studies.iter().collect() } else { named };
     let dir = args.dir.as_deref().unwrap_or(Path::new(RUNS));
     let mut commands = vec![];
-    // A repeated study is planned once: otherwise two jobs would write the same file.
+    // Plan a repeated study once. Otherwise two jobs would write the same file.
     for study in each_once_by(studies, |one, other| one.name == other.name) {
         if !args.scenes.is_empty() && !study.names_scenes() {
-            terminal.tell(&format!("{} has its own scenes and ignores --scenes", study.name));
+            terminal.print_message(&format!("{} has its own scenes and ignores --scenes", study.name));
         }
-        // Parse the options of all studies before loading scenes, which takes seconds.
+        // Parse the options of all studies before the slow planning starts.
         let mut words = match (args.quick, whole) {
             (true, _) => study.preset(study.presets.quick, &args.scenes),
             (false, true) => study.preset(study.presets.full, &args.scenes),
@@ -132,7 +132,7 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
     let (mut lines, mut warnings) = (String::new(), vec![]);
     let level = level.iter().flat_map(|level| ["--level", level.name()]);
     let program: Vec<&str> = ["sahara"].into_iter().chain(level).collect();
-    // Keep one provenance per number of threads, because choosing idle cores takes a tenth of a second.
+    // Making a provenance takes a tenth of a second, so reuse each provenance.
     let of = |&threads: &usize| Provenance { process_per_epoch: true, ..Provenance::of(&Threads::unstarted(threads)) };
     let mut provenances: BTreeMap<usize, Provenance> = BTreeMap::new();
     for (study, words, matches) in commands {
@@ -151,13 +151,11 @@ pub fn run(session: &Session, args: &Args, level: Option<Level>) -> anyhow::Resu
             lines += &(line(words) + "\n");
         }
     }
-    // Studies of the same scene may give the same warning.
-    each_once(warnings).iter().for_each(|warning| terminal.tell(&format!("warning: {warning}")));
+    each_once(warnings).iter().for_each(|warning| terminal.print_message(&format!("warning: {warning}")));
     terminal.print(&lines);
     Ok(Status::Right)
 }
 
-/// The words as one command line for a shell.
 fn line<'a>(words: impl Iterator<Item = &'a OsStr>) -> String {
     words.map(quoted).collect::<Vec<String>>().join(" ")
 }

@@ -1,4 +1,4 @@
-//! The progress bar on stderr. While samples are taken, it is drawn only between timed regions.
+//! The progress bar on stderr.
 
 use std::fmt::Display;
 use std::io::{self, IsTerminal};
@@ -15,31 +15,29 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).expect("the template is valid")
 }
 
-/// A bar that disappears when it is dropped.
 fn bar(steps: Option<u64>, template: &str, terminal: &Terminal) -> ProgressBar {
     let target = if terminal.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
     ProgressBar::with_draw_target(steps, target).with_style(style(template)).with_finish(ProgressFinish::AndClear)
 }
 
-/// The progress bar of a download of `bytes` bytes (`None` if unknown). Its position counts bytes.
+/// `bytes` is `None` if the size is unknown.
 #[cfg(feature = "fetch")]
 pub fn download(name: &str, bytes: Option<u64>, terminal: &Terminal) -> ProgressBar {
     bar(bytes, "{bar:24} {bytes} of {total_bytes} {wide_msg}", terminal).with_message(name.to_owned())
 }
 
-/// Time between updates of a long step.
 const TICK: Duration = Duration::from_secs(1);
 
-/// Shows `what` and the elapsed time until the bar is dropped. Its ticks would disturb timed work.
+/// Shows `what` and the elapsed time. Drop the returned bar before a measurement, because redrawing the bar disturbs
+/// measurements.
 pub fn spinner(what: impl Into<String>, terminal: &Terminal) -> ProgressBar {
     let bar = bar(None, "{elapsed_precise} {wide_msg}", terminal).with_message(what.into());
     bar.enable_steady_tick(TICK);
     bar
 }
 
-/// Prints the progress of a run if stderr is not a terminal: at most one line every five seconds.
 pub struct LogLines {
-    /// The time of the last line. `None` if no lines are printed: stderr is a terminal, or progress is hidden.
+    /// `None` if printing is disabled.
     last: Option<Instant>,
 }
 
@@ -50,9 +48,9 @@ impl LogLines {
         Self { last: (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now) }
     }
 
-    pub fn tell(&mut self, line: impl Display) {
+    pub fn print(&mut self, line: impl Display) {
         if self.last.is_some_and(|last| last.elapsed() >= Self::PAUSE) {
-            crate::output::tell(line);
+            crate::output::print_message(line);
             self.last = Some(Instant::now());
         }
     }
@@ -63,14 +61,15 @@ const STEPS: u64 = 100;
 pub struct OnTerminal<'a> {
     terminal: &'a Terminal,
     bar: ProgressBar,
-    /// The title of the current case. `work` is the work of this case, `done` the work of all earlier cases.
+    /// The title of the current case.
     case: String,
+    /// The work of the current case.
     work: u64,
+    /// The work of all finished cases.
     done: u64,
     log: LogLines,
-    /// Warnings that were shown.
     warned: Vec<String>,
-    /// Whether this process measures a single case for a scheduler. If so, it prints the title of the case.
+    /// Whether this process measures a single case for a scheduler.
     is_job: bool,
 }
 
@@ -83,7 +82,7 @@ impl<'a> OnTerminal<'a> {
 
     fn log(&mut self, text: &str) {
         let percent = 100 * self.bar.position() / self.bar.length().unwrap_or(0).max(1);
-        self.log.tell(format_args!("{percent} %: {text}"));
+        self.log.print(format_args!("{percent} %: {text}"));
     }
 }
 
@@ -93,19 +92,18 @@ impl Screen for OnTerminal<'_> {
         self.bar.set_length(work * STEPS);
         self.bar.set_style(style("{bar:24} {percent:>3}% {elapsed_precise}, {eta} left {wide_msg}"));
         if !self.is_job {
-            // From now on, Ctrl-C stops the run instead of ending the process at once.
+            // Do not let the first Ctrl-C end the process at once.
             interrupt::listen(true);
         }
     }
 
     fn case(&mut self, title: &str, work: u64) {
         if self.is_job {
-            self.terminal.tell(&format!("measuring {title}"));
+            self.terminal.print_message(&format!("measuring {title}"));
         }
         self.log(title);
         (self.case, self.work) = (title.into(), work);
         self.bar.set_message(title.to_owned());
-        // The scene is loaded next. This step is not timed, so the bar may tick.
         self.bar.enable_steady_tick(TICK);
     }
 
@@ -118,12 +116,12 @@ impl Screen for OnTerminal<'_> {
             Stage::Count => ("counting".into(), STEPS),
         };
         let text = format!("{}: {text}", self.case);
-        // No ticks while samples are taken: they would disturb the times.
+        // Ticks of the bar disturb the timing.
         match stage {
             Stage::Trace(..) => self.bar.disable_steady_tick(),
             _ => self.bar.enable_steady_tick(TICK),
         }
-        // Some checks follow the samples: do not move the bar back.
+        // The bar must not move back.
         self.bar.set_position(self.bar.position().max(self.done * STEPS + self.work * step));
         self.log(&text);
         self.bar.set_message(text);
@@ -145,7 +143,7 @@ impl Screen for OnTerminal<'_> {
     fn warn(&mut self, warnings: &[String]) {
         for warning in warnings {
             if !self.terminal.quiet && !self.warned.contains(warning) {
-                self.bar.suspend(|| crate::output::tell(format_args!("warning: {warning}")));
+                self.bar.suspend(|| crate::output::print_message(format_args!("warning: {warning}")));
                 self.warned.push(warning.clone());
             }
         }

@@ -100,7 +100,6 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     Ok(Status::Right)
 }
 
-/// Rejects a file name with an extension other than `.png`.
 fn is_png(path: &Path) -> anyhow::Result<()> {
     let ending = path.extension().unwrap_or("png".as_ref());
     let (path, format) = (path.escaped(), ending.escaped());
@@ -111,7 +110,7 @@ fn is_png(path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The common heat scale: the largest [`hottest`] of all trees. Excludes brute force, which would darken all pictures.
+/// The heat scale for pictures of all trees. Brute force is excluded, because its high cost would darken all pictures.
 fn common_scale(registry: &Registry, scene: &Scene, waiting: &ProgressBar) -> anyhow::Result<u64> {
     let size = coarse_size(scene);
     let mut scale = 1;

@@ -83,7 +83,6 @@ pub fn run(suite: &Suite, args: &Args, terminal: &Terminal) -> anyhow::Result<St
     Ok(Status::Right)
 }
 
-/// The outputs of `--results`: the folder of the paper, and the README next to the folder.
 struct ResultsFolder {
     figures: OutputFolder,
     tables: OutputFolder,
@@ -111,8 +110,8 @@ impl ResultsFolder {
         })
     }
 
-    /// Writes all outputs. README.md is last, because it cites numbers of the data.
     fn write(&self, mut results: Results, studies: &Studies) -> anyhow::Result<()> {
+        // Fill in README.md first, because `fill` also adds statements to the data.
         let filled = self.readme.as_ref().map(|(_, text)| results.fill(text, studies)).transpose()?;
         self.figures.write(&results.figures)?;
         self.tables.write(&results.tables)?;

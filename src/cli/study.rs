@@ -70,7 +70,7 @@ impl Files {
 }
 
 impl Common {
-    /// Rejects files that cannot be written. Call it before scenes are loaded, which takes seconds.
+    /// Rejects output files that cannot be written. Call this function before slow work.
     fn files(&self) -> anyhow::Result<Files> {
         let check = |path: &PathBuf| OutputFile::check(path);
         let files = Files {
@@ -89,13 +89,13 @@ impl Common {
     }
 }
 
-/// Options that few people need: `--help` shows them, `-h` does not.
+/// Ids of the options that `--help` shows and `-h` hides.
 const RARE: &str = "camera inside size quality runner_limit reference only like runs budget threads seed build_limit \
                     fresh in_process export_csv export_markdown plot";
 
 pub fn command(study: &Study) -> clap::Command {
     let command = Common::augment_args((study.options)().name(study.name));
-    // The doc comment of `Common` has replaced the description: set it again.
+    // `augment_args` has replaced the description with the doc comment of `Common`.
     let command = command.about(study.question).long_about(None);
     command.mut_args(|option| {
         let is_rare = RARE.split(' ').any(|rare| option.get_id() == rare);
@@ -107,7 +107,6 @@ pub fn run(session: &Session, study: &Study, matches: &ArgMatches) -> anyhow::Re
     run_as(session, study, matches, &Common::from_arg_matches(matches)?)
 }
 
-/// Runs a study, prints its report and writes the files.
 pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &Common) -> anyhow::Result<Status> {
     let &Session { suite, terminal, .. } = session;
     let Keeping { dir, fresh, in_process } = &common.keeping;
@@ -131,8 +130,7 @@ pub fn run_as(session: &Session, study: &Study, matches: &ArgMatches, common: &C
     tables.iter().for_each(|table| terminal.print_results(table));
     terminal.print_notes(notes.clone());
     terminal.print_lines(&foot);
-    failures.iter().for_each(crate::output::tell_error);
-    // Files are written whole, after all cases are measured.
+    failures.iter().for_each(crate::output::print_error);
     if let Some(dataset) = dataset {
         if let Some(file) = files.json {
             file.write(&dataset.to_json())?;

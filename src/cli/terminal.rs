@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use comfy_table::Table as Probe;
 
 use crate::escaped::Escaped as _;
-use crate::output::{self, stdout_is_taken, tell};
+use crate::output::{self, print_message, stdout_is_taken};
 use crate::report::number::plural;
 use crate::report::{Screen, Table, terminal, wrapped};
 
@@ -28,11 +28,8 @@ pub struct Terminal {
     screen: Screen,
     /// Whether standard output is a terminal.
     shown: bool,
-    /// Whether progress is hidden.
     pub quiet: bool,
-    /// Whether tables are printed with all their columns and notes.
     pub verbose: bool,
-    /// The notes that were not printed.
     hidden: RefCell<HashSet<String>>,
 }
 
@@ -45,41 +42,38 @@ impl Terminal {
             Colour::Always => true,
             Colour::Never => false,
         };
-        // Some terminals do not know their width, and report zero.
+        // Some terminals report a width of zero.
         let width = if shown { Probe::new().width().filter(|&width| width > 0) } else { None };
         Self { screen: Screen { width, colour }, shown, quiet, verbose, hidden: RefCell::default() }
     }
 
-    /// Whether to print intermediate results: a person may be reading standard output.
+    /// Whether a person may be reading standard output.
     pub fn is_watched(&self) -> bool {
         self.shown && !self.quiet && !stdout_is_taken()
     }
 
-    /// Prints text unchanged to standard output, or to standard error if an output file is standard output.
     pub fn print(&self, text: &str) {
         if stdout_is_taken() {
-            // A closed standard error is not an error.
+            // Ignore failures, because stderr may be closed.
             let _ = io::stderr().lock().write_all(text.as_bytes());
         } else {
             output::print(text.as_bytes());
         }
     }
 
-    /// Prints a message to standard error, unless progress is hidden.
-    pub fn tell(&self, sentence: &str) {
+    pub fn print_message(&self, sentence: &str) {
         if !self.quiet {
-            tell(sentence);
+            print_message(sentence);
         }
     }
 
-    /// Prints a table without its empty columns, then its notes and a blank line.
     pub fn print_table(&self, table: &Table) {
         let table = if self.verbose { table.clone() } else { table.clone().without_details() };
         let table = terminal::with_short_names(table);
         self.print(&(terminal::table(&table, self.screen) + "\n"));
     }
 
-    /// Prints a table of measurements; [`print_notes`](Self::print_notes) handles its notes.
+    /// Prints a table of measurements. The notes are printed only with `verbose`.
     pub fn print_results(&self, table: &Table) {
         if self.verbose {
             return self.print_table(table);
@@ -89,13 +83,11 @@ impl Terminal {
         self.print(&(terminal::table(&table, self.screen) + "\n"));
     }
 
-    /// Prints explanations of results if `verbose`; otherwise [`print_note_count`](Self::print_note_count) counts them.
     pub fn print_notes(&self, notes: impl IntoIterator<Item = impl Into<String>>) {
         let notes = notes.into_iter().map(Into::into);
         if self.verbose { self.print_lines(notes) } else { self.hidden.borrow_mut().extend(notes) }
     }
 
-    /// Prints how many notes were hidden, if any.
     pub fn print_note_count(&self) {
         let hidden = self.hidden.borrow().len();
         if hidden > 0 {
@@ -104,7 +96,6 @@ impl Terminal {
         }
     }
 
-    /// Prints lines of text, wrapped at the width of the screen.
     pub fn print_lines(&self, lines: impl IntoIterator<Item = impl AsRef<str>>) {
         let width = usize::from(self.screen.width.unwrap_or(120));
         let lines = lines.into_iter().flat_map(|line| wrapped(&line.as_ref().escaped().to_string(), width));

@@ -1,4 +1,4 @@
-//! Checks that no help, message, document or comment has a phrase that the glossary replaces.
+//! Searches helps, messages, documents and comments for phrases that the glossary replaces.
 
 use std::path::Path;
 
@@ -7,28 +7,28 @@ use crate::study::Studies;
 
 const GLOSSARY: &str = include_str!("../../papers/GLOSSARY.md");
 
-/// Phrases of the glossary that are not checked, because they are correct in another meaning.
+/// Unchecked phrases of the glossary. Each phrase also has a correct meaning.
 const AMBIGUOUS: [&str; 9] =
     ["a case", "a ray", "a job", "a second", "a triangle", "the others", "the rest", "the same", "stands in for"];
 
-/// Single words of the glossary that are checked, because they are always wrong. Other single words may be correct.
+/// Single words that are checked. All other single words of the glossary are not checked.
 const WORDS: [&str; 8] = ["anew", "caster", "likewise", "owes", "surely", "whatever", "whoever", "yardstick"];
 
-/// First words of a doc comment that hide its subject.
+/// Words that must not begin a doc comment.
 const OPENINGS: [&str; 6] = ["Likewise", "Nothing", "Of", "That", "Those", "What"];
 
-/// Terms of the field that contain a phrase of the glossary, but are correct.
+/// Correct technical terms that contain a phrase of the glossary.
 const TECHNICAL: [&str; 2] = ["box is lost", "hit is lost"];
 
-/// A file that is not checked: claims stay as they were written before the measurement.
+/// The file of the claims is not checked. Claims must not change after the measurement.
 const CLAIMS: &str = "src/study/CLAIMS.md";
 
-/// The phrases of the section "Words to avoid", without patterns such as "hold X against Y".
+/// The checked phrases of the section "Words to avoid". Patterns such as "hold X against Y" are not checked.
 fn not_used() -> Vec<String> {
     let section = GLOSSARY.split("\n## Words to avoid\n").nth(1).expect("the section");
     let section = section.split("\n## ").next().unwrap_or(section);
     let cells = section.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").next()).skip(1);
-    // Drop remarks in parentheses, which restrict a phrase to some meanings.
+    // Drop remarks in parentheses.
     let plain =
         |cell: &str| cell.split(" (").map(|part| part.rsplit_once(')').map_or(part, |(_, rest)| rest)).collect();
     let cells: Vec<String> = cells.map(plain).collect();
@@ -42,26 +42,24 @@ fn not_used() -> Vec<String> {
     phrases.filter(is_plain).collect()
 }
 
-/// The long and short helps of a command and of all its subcommands, on a screen of 80 columns.
 fn helps(command: &mut clap::Command, into: &mut Vec<String>) {
     let mut narrow = command.clone().term_width(80);
     into.extend([narrow.render_long_help(), narrow.render_help()].map(|help| help.to_string()));
     command.get_subcommands_mut().filter(|own| own.get_name() != "help").for_each(|own| helps(own, into));
 }
 
-/// The string literals of a source before its tests, each in one line.
+/// The string literals in a source file before the tests. Each literal is joined into one line.
 fn literals(source: &str) -> Vec<String> {
     let source = source.split("\n#[cfg(test)]\n").next().unwrap_or(source);
     let code = source.lines().map(|line| format!(" {line}").split(" // ").next().unwrap_or_default().to_owned());
     let code = code.filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
-    // Remove quotes inside literals: every remaining quote begins or ends a literal.
+    // Remove quotes inside literals. Every remaining quote begins or ends a literal.
     let code = code.replace("\\\\", "").replace("\\\"", "").replace("'\"'", "");
     let in_a_line = |text: &str| text.split_whitespace().filter(|word| *word != "\\").collect::<Vec<_>>().join(" ");
     code.split('"').skip(1).step_by(2).map(in_a_line).collect()
 }
 
-/// The comments of a source, each with the number of its first line. Consecutive lines with the same slashes are one
-/// comment. Code in backticks is left out.
+/// The comments of a source file and their line numbers. Text in backticks becomes `{}`.
 fn comments(source: &str) -> Vec<(usize, String)> {
     let slashes = |comment: &str| comment.split(' ').next().map(String::from);
     let mut found: Vec<(usize, String)> = vec![];
@@ -81,13 +79,13 @@ fn comments(source: &str) -> Vec<(usize, String)> {
     found.into_iter().map(|(line, text)| (line, prose(text))).collect()
 }
 
-/// The text of a document without the marked texts that a run fills in.
+/// The text of a document without the parts between `<!-- sahara: ` and `<!-- / -->`.
 fn written(text: &str) -> String {
     let parts = text.split("<!-- sahara: ").map(|part| part.split_once("<!-- / -->").map_or(part, |(_, rest)| rest));
     parts.collect()
 }
 
-/// The `phrases` that occur in `text`, in upper or lower case and across lines.
+/// Returns a message for each phrase that occurs in `text`. Letter case and line breaks are ignored.
 fn found(phrases: &[String], text: &str) -> Vec<String> {
     // A placeholder such as `{what}` counts as a word.
     let plain = |c: char| if c.is_alphanumeric() || "'{}".contains(c) { c.to_ascii_lowercase() } else { ' ' };
@@ -118,7 +116,6 @@ fn phrases_and_literals_are_found() {
 
 #[test]
 fn helps_fit_a_screen_and_no_text_has_a_phrase_that_the_glossary_replaces() {
-    // Each text has the name of its file, and of its line if it is a comment.
     let (mut messages, mut prose, mut documents) = (vec![], vec![], vec![]);
     let mut helps_of_all = vec![];
     helps(&mut super::command(&Studies::builtin()), &mut helps_of_all);
@@ -136,13 +133,13 @@ fn helps_fit_a_screen_and_no_text_has_a_phrase_that_the_glossary_replaces() {
         let place = path.display();
         prose.extend(comments(&text).into_iter().map(|(line, comment)| (format!("{place}:{line}"), comment)));
         if path.starts_with("src") && !path.ends_with("tests.rs") && !path.iter().any(|part| part == "tests") {
-            // No user reads the sentence of an `expect`.
+            // Users do not see the messages of `expect`.
             let shown = literals(&text.replace(".expect(\"", " // "));
             messages.extend(shown.into_iter().map(|literal| (place.to_string(), literal)));
         }
     }
     for (path, text) in files(root, ".md") {
-        // Exceptions: notes on papers, results that a run has written, and the claims.
+        // Skip the folder `papers` and the claims.
         if !path.starts_with(root.join("papers")) && !path.ends_with(CLAIMS) {
             documents.push((path.display().to_string(), written(&text)));
         }
@@ -150,7 +147,7 @@ fn helps_fit_a_screen_and_no_text_has_a_phrase_that_the_glossary_replaces() {
 
     let phrases = not_used();
     let mut used = vec![];
-    for (texts, least) in [(helps, 40), (messages, 2000), (prose, 5000), (documents, 10)] {
+    for (texts, least) in [(helps, 40), (messages, 2000), (prose, 3000), (documents, 10)] {
         assert!(texts.len() > least, "{} texts, not more than {least}", texts.len());
         for (place, text) in texts {
             let doc = text.strip_prefix("///").or(text.strip_prefix("//!")).unwrap_or_default();

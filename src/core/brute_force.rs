@@ -9,15 +9,15 @@ use crate::traversal::leaf::{LeafBlock, search, start};
 use crate::traversal::walk::{Walk, walked_queries};
 use crate::triangle::TriangleTest;
 
-/// Tests every triangle in order: the reference for all other structures.
+/// Tests every triangle: the reference for all other structures.
 ///
-/// It tests eight triangles at once; the results are bit-identical to the scalar test.
+/// Tests eight triangles at once. The results are bit-identical to the results of the scalar test.
 pub struct BruteForce<T: TriangleTest> {
     blocks: Vec<LeafBlock<T>>,
     references: usize,
 }
 
-/// No options.
+/// Brute force has no options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BruteForceConfig {}
@@ -53,7 +53,7 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        // Every ray tests every triangle, even if it misses the box.
+        // Every ray tests every triangle, even a ray that misses the box.
         let sah_cost = Some(self.references as f64);
         TreeShape { sah_cost, ..TreeShape::one_leaf(self.references) }
     }

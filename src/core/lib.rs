@@ -1,4 +1,4 @@
-//! The trees of **sahara** for renderers: meshes, triangle tests and acceleration structures, with five dependencies.
+//! Meshes, triangle tests and ray-tracing acceleration structures for renderers.
 //!
 //! A structure is built over a mesh and traces slices of rays:
 //!
@@ -24,13 +24,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The generic structures are compiled in your crate, with the profile of your workspace. For its measurements, this
-//! project compiles `sahara-core` with `codegen-units = 1`.
+//! The generic structures are compiled in your crate, with the profile of your workspace.
 
 #![warn(missing_docs)]
 
 pub mod accel;
-/// Brute force: tests every triangle in order.
+/// Brute force over all triangles.
 pub mod brute_force;
 pub mod build;
 pub mod bvh8;
@@ -47,6 +46,6 @@ pub mod simd;
 mod traversal;
 pub mod triangle;
 
-// Re-exported, so your crate can use the versions that this crate uses.
+// The API uses types of these crates, so your crate needs the same versions.
 pub use glam;
 pub use serde;

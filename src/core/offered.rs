@@ -1,9 +1,6 @@
-//! The structures that the registry offers by name, each with every triangle test that it supports. This module
-//! compiles them once, with the settings of this crate. Otherwise, every crate that uses them would compile them again.
+//! The structures that the registry offers by name, compiled once in this crate.
 //!
-//! To add a structure of this crate, add its type to `offered_over!`, or to `offered!` if it has one triangle test.
-//! Tests then require that it works with every triangle test of `offered_over!`, returns the lowest primitive number at
-//! equal `t`, loses no hit in the cases of `validate/hard_cases`, and returns the same bits at every SIMD level.
+//! To add a structure, add its type to `offered_over!`, or to `offered!` if it has one triangle test.
 
 use std::sync::Arc;
 
@@ -23,7 +20,7 @@ use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumbo
 
 /// A structure that is compiled in this crate.
 pub trait Offered: Accel {
-    /// Like [`Accel::build`], with the type erased.
+    /// Builds the structure and erases its type.
     ///
     /// # Errors
     /// If the mesh or the configuration is rejected.
@@ -33,7 +30,7 @@ pub trait Offered: Accel {
 macro_rules! offered {
     ($($structure:ty),* $(,)?) => {$(
         impl Offered for $structure {
-            // This function is neither generic nor inlined, so no other crate compiles a copy of it.
+            // A function that is neither generic nor inlined is compiled only in this crate.
             #[inline(never)]
             fn boxed(mesh: &Arc<Mesh>, config: &Self::Config) -> Result<Box<dyn DynAccel>, BuildError> {
                 Ok(Box::new(Self::build(mesh, config)?))
@@ -42,7 +39,6 @@ macro_rules! offered {
     )*};
 }
 
-/// Offers `BruteForce`, `KdTree` and `Bvh8`, each with each of the given triangle tests.
 macro_rules! offered_over {
     ($($test:ty),* $(,)?) => {
         $(offered!(BruteForce<$test>, KdTree<$test>, Bvh8<$test>);)*

@@ -7,44 +7,42 @@ use std::time::Duration;
 use super::{DataFile, FetchError, FetchOutcome};
 use crate::output::temporary_file;
 
-/// Downloads files. Gives up on a server that does not respond or stalls.
 pub struct Client(ureq::Agent);
 
-/// Maximum number of redirects. Mesh repositories need one or two.
+/// Mesh repositories need one or two redirects.
 const REDIRECTS: u32 = 5;
 
-/// The time limit for a connection, a response or the next bytes.
-const PATIENCE: Duration = Duration::from_secs(60);
+const TIMEOUT: Duration = Duration::from_secs(60);
 
-/// The size limit in bytes, if the scene file gives no size for the download.
-const MOST: u64 = 8 << 30;
+/// The size limit in bytes, if the scene file gives no size.
+const MAX_BYTES: u64 = 8 << 30;
 
 impl Default for Client {
     fn default() -> Self {
-        Self::with_patience(PATIENCE)
+        Self::with_timeout(TIMEOUT)
     }
 }
 
 impl Client {
-    /// A client with the time limit `patience` for a connection, a response or the next bytes; the default is a minute.
-    pub fn with_patience(patience: Duration) -> Self {
+    pub fn with_timeout(timeout: Duration) -> Self {
         let config = ureq::Agent::config_builder()
             .max_redirects(REDIRECTS)
             .http_status_as_error(false)
-            .timeout_resolve(Some(patience))
-            .timeout_connect(Some(patience))
-            .timeout_send_request(Some(patience))
-            .timeout_recv_response(Some(patience))
-            .timeout_per_read(Some(patience))
+            .timeout_resolve(Some(timeout))
+            .timeout_connect(Some(timeout))
+            .timeout_send_request(Some(timeout))
+            .timeout_recv_response(Some(timeout))
+            .timeout_per_read(Some(timeout))
             .user_agent(concat!("sahara/", env!("CARGO_PKG_VERSION")))
             .build();
         Self(config.into())
     }
 
-    /// Downloads `file`, verifies it and moves it to its path in one step. `progress` receives the bytes so far.
+    /// The file appears at its path only if it is complete and verified. `progress` receives the number of bytes so
+    /// far.
     ///
     /// # Errors
-    /// If the file exists with other contents, or if the download fails or has other contents: it is then discarded.
+    /// If an existing or downloaded file has other contents, or if the download, reading or writing fails.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<FetchOutcome, FetchError> {
         if file.is_there()? {
             return Ok(FetchOutcome::AlreadyThere);
@@ -59,7 +57,6 @@ impl Client {
         Ok(FetchOutcome::Downloaded { bytes })
     }
 
-    /// Writes the body of the response to `out`. Returns the number of bytes.
     fn download(&self, file: &DataFile, out: &mut fs::File, progress: &mut dyn FnMut(u64)) -> Result<u64, FetchError> {
         let url = || file.url.clone();
         let connection = |cause: String| FetchError::Connection { url: url(), cause };
@@ -76,7 +73,7 @@ impl Client {
             return Err(FetchError::Status { url: url(), status });
         }
         let length = response.headers().get("content-length").and_then(|length| length.to_str().ok()?.parse().ok());
-        let most = file.bytes.unwrap_or(MOST);
+        let most = file.bytes.unwrap_or(MAX_BYTES);
         let (mut got, mut buffer) = (0, vec![0; 1 << 16]);
         let mut body = response.into_body().into_reader();
         loop {

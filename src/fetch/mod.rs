@@ -1,7 +1,6 @@
-//! Downloads real meshes. A file is stored only if it is complete and has the expected SHA-256.
+//! Downloads real meshes, and verifies the SHA-256 of each file.
 //!
-//! The feature `fetch` is on by default. It adds an HTTP client that includes TLS and certificates and needs no system
-//! libraries. Without the feature, `sahara fetch` prints what to download by hand, and verifies existing files.
+//! Without the feature `fetch`, `sahara fetch` prints the files to download by hand, and verifies existing files.
 
 #[cfg(feature = "fetch")]
 mod client;
@@ -15,25 +14,20 @@ use crate::escaped::Escaped as _;
 pub use client::Client;
 pub use data_file::DataFile;
 
-/// The result of a download.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FetchOutcome {
-    /// The file exists already, with the expected contents.
     AlreadyThere,
-    Downloaded {
-        bytes: u64,
-    },
+    Downloaded { bytes: u64 },
 }
 
-/// The reason why a file was not fetched.
 #[derive(Debug, thiserror::Error)]
 pub enum FetchError {
     #[error("{file} cannot be fetched: its scene file has no sha256 to verify it{}", unpack.as_ref().map_or(String::new(), |how| format!("; download {url} yourself, then {how}, into {}", folder.escaped())))]
     NoHash { file: String, url: String, unpack: Option<String>, folder: PathBuf },
     #[error("{file} cannot be fetched: the url {url:?} in its scene file does not begin with https:// or http://")]
-    Address { file: String, url: String },
+    UnsupportedUrl { file: String, url: String },
     #[error("{} exists with other contents (SHA-256 {found}, not {expected}): rename or remove it and fetch again", path.escaped())]
-    Other { path: PathBuf, found: String, expected: String },
+    OtherContents { path: PathBuf, found: String, expected: String },
     #[error("{url}: the server responds with status {status}: {}", advice(*status))]
     Status { url: String, status: u16 },
     #[error("{url}: {cause}: check the connection and fetch again")]

@@ -4,10 +4,10 @@ use std::ffi::OsStr;
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
-/// Prints names safely. Unescaped control characters in a file name could change the terminal or break a table. A lossy
-/// conversion would print all bytes that are not UTF-8 alike.
+/// Unescaped control characters in a file name could change the terminal or break a table. A lossy conversion would
+/// print different invalid bytes alike.
 pub trait Escaped {
-    /// The name on one line, with `\n` or `\u{1b}` for a control character and `\xff` for a byte that is not UTF-8.
+    /// The name on one line. Control characters appear as `\n` or `\u{1b}`, and bytes that are not UTF-8 as `\xff`.
     fn escaped(&self) -> Escape<'_>;
 }
 
@@ -17,7 +17,6 @@ impl<S: AsRef<OsStr> + ?Sized> Escaped for S {
     }
 }
 
-/// See [`Escaped::escaped`].
 #[derive(Clone, Copy)]
 pub struct Escape<'a>(&'a OsStr);
 
@@ -38,8 +37,9 @@ fn is_control(c: char) -> bool {
     c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Quotes `word` for a shell if necessary, on one line and in single quotes. A word with control characters or bytes
-/// that are not UTF-8 becomes `$'a\xff'`, which bash, zsh and ksh understand.
+/// Quotes `word` for a shell if necessary, on one line.
+///
+/// A word with control characters or invalid UTF-8 becomes `$'a\xff'`, which bash, zsh and ksh understand.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref();
     let Some(text) = word.to_str().filter(|text| !text.chars().any(is_control)) else {
@@ -51,7 +51,6 @@ pub fn quoted(word: impl AsRef<OsStr>) -> String {
     if !text.is_empty() && text.chars().all(plain) { text.into() } else { format!("'{}'", text.replace('\'', "'\\''")) }
 }
 
-/// The file name of `path` without its extension, escaped.
 pub fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or(path.as_os_str()).escaped().to_string()
 }

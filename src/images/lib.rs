@@ -1,5 +1,5 @@
-//! The images of **sahara**: scenes with their meshes, cameras and rays, a renderer, and the comparison with golden
-//! images. The trees are in [`sahara_core`], the command is in `sahara`, which re-exports most modules.
+//! Scenes, a renderer, and the comparison of pictures with golden images. [`sahara_core`] contains the acceleration
+//! structures. `sahara` contains the command and re-exports most modules.
 
 use sahara_core::{accel, geometry, oracle, triangle};
 #[cfg(test)]
@@ -13,5 +13,5 @@ pub mod plural;
 pub mod render;
 pub mod scene;
 
-// Callers need the same version of `image`.
+// Callers need this version of `image`.
 pub use image;

@@ -1,6 +1,6 @@
-//! Looks up names that people type, in upper or lower case, and suggests the right name for a misspelled one.
+//! Looks up names without regard to case, and suggests names for misspelled ones.
 
-/// Declares an enum with a name for each value; the enum has the constant `ALL` and the method `name`.
+/// Declares an enum whose values have names.
 #[macro_export]
 macro_rules! named_enum {
     ($(#[$doc:meta])* pub enum $type:ident { $($(#[$of:meta])* $value:ident = $name:literal,)* }) => {
@@ -10,7 +10,7 @@ macro_rules! named_enum {
         }
 
         impl $type {
-            /// All values, in the order of declaration and of tables.
+            /// All values, in the order of tables.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$value),*];
 
             /// The name of the value in commands, output and files.
@@ -24,7 +24,6 @@ macro_rules! named_enum {
 }
 pub use named_enum;
 
-/// An unknown name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no {what} {name:?}{}; the choices are: {}", suggestion(name, known.iter().copied()), known.join(", "))]
 pub struct Unknown {
@@ -33,7 +32,7 @@ pub struct Unknown {
     known: Vec<&'static str>,
 }
 
-/// The value in `all` with the name `wanted`, in upper or lower case; `what` is the noun in the error message.
+/// `what` is the noun in the error message.
 pub fn find<T: Copy, const N: usize>(
     what: &'static str,
     all: [T; N],
@@ -47,14 +46,12 @@ pub fn find<T: Copy, const N: usize>(
     })
 }
 
-/// The first element of `known` with the name `wanted`, in upper or lower case.
 pub fn named<T>(known: impl IntoIterator<Item = T>, wanted: &str, name: impl Fn(&T) -> &str) -> Option<T> {
     known.into_iter().find(|one| name(one).eq_ignore_ascii_case(wanted))
 }
 
-/// The element of `known` that `wanted` probably means, or `None`. Either at most a third of the letters of the longer
-/// name differ, or only this element begins with `wanted` (three letters or more). Swapped neighbours are one
-/// difference: Damerau, A technique for computer detection and correction of spelling errors, 1964.
+/// The element of `known` that `wanted` probably means. Swapped neighbours are one difference: Damerau, A technique for
+/// computer detection and correction of spelling errors, 1964.
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: String = wanted.chars().take(60).flat_map(char::to_lowercase).collect();
     let known: Vec<&str> = known.into_iter().collect();
@@ -67,7 +64,6 @@ pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Op
     begins.next().filter(|_| begins.next().is_none())
 }
 
-/// ` (did you mean NAME?)`, or an empty text if no name is near.
 pub fn suggestion<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     nearest(wanted, known).map_or(String::new(), |name| format!(" (did you mean {name}?)"))
 }

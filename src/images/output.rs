@@ -1,10 +1,10 @@
 //! Writes files and folders completely or not at all, and writes to standard output.
 //!
-//! Contents are first written to a temporary file or folder beside the target. It is then renamed to the target. No
-//! reader sees partial contents, and a failure keeps the old contents.
+//! A temporary file or folder beside the target receives the contents, and is then renamed. No reader sees partial
+//! contents, and a failure keeps the old contents.
 //!
 //! If the reader closes standard output, as `| head` does, the run continues without an error. Any other failure of
-//! standard output is reported at the end of the run. The verdict of the run is the same in all cases.
+//! standard output is reported at the end of the run.
 
 use std::collections::HashSet;
 use std::fmt::Display;
@@ -21,10 +21,9 @@ use crate::escaped::Escaped as _;
 /// The file name for standard output.
 pub const STDOUT: &str = "-";
 
-/// The file that marks a folder as written by sahara and lists the folder's files.
+/// This file marks a folder as output of sahara and lists the files of the folder.
 const MARK: &str = "sahara-files.json";
 
-/// The reason why a file or a folder cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     #[error("cannot write {}: {problem}", path.escaped())]
@@ -38,23 +37,23 @@ impl OutputError {
         Self::Target { path: path.into(), problem: problem.into() }
     }
 
-    /// The error of a failed write of `path`. The text of an error of `tempfile` is dropped: it names a temporary path.
+    /// Drops the text of an error of `tempfile`, because the text contains a temporary path.
     fn write(path: &Path, error: io::Error) -> Self {
         let cause = if error.get_ref().is_some() { error.kind().into() } else { error };
         Self::Write { path: path.into(), cause }
     }
 }
 
-/// A file for results, or standard output if its name is [`STDOUT`]. Special files such as pipes are written directly.
+/// A file for results, or standard output if the path is [`STDOUT`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
     pub path: PathBuf,
-    /// The regular file, with links followed; `None` for standard output and special files such as pipes and terminals.
+    /// The regular file, with links followed. `None` for standard output and special files such as pipes.
     regular: Option<PathBuf>,
 }
 
 impl OutputFile {
-    /// Checks that results can be written to `path`, and leaves no file behind. Call it before a long run.
+    /// Checks that results can be written to `path`. Leaves no file behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         let regular = match fs::metadata(path) {
             _ if path == Path::new(STDOUT) => {
@@ -73,7 +72,6 @@ impl OutputFile {
         Ok(Self { path: path.into(), regular })
     }
 
-    /// Returns an error if the file is one of `inputs`. All links are followed.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_own = |input: &Path| self.regular.is_some() && input.canonicalize().ok() == self.regular;
         if inputs.into_iter().any(is_own) {
@@ -82,7 +80,6 @@ impl OutputFile {
         Ok(self)
     }
 
-    /// Returns an error if two of `files` are the same file or both are standard output. All links are followed.
     pub fn are_apart<'a>(files: impl IntoIterator<Item = &'a Self>) -> Result<(), OutputError> {
         let mut places = HashSet::new();
         let mut files = files.into_iter().filter(|file| file.regular.is_some() || file.path == Path::new(STDOUT));
@@ -90,8 +87,8 @@ impl OutputFile {
         Err(OutputError::place(&twice.path, "two results would go there: name another file for one of them"))
     }
 
-    /// Writes the contents. An error of standard output is not returned: [`FAILURE`] records it until the command
-    /// ends. After any other error, an existing regular file is unchanged.
+    /// [`FAILURE`] records an error of standard output, which is not returned. After any other error, an existing
+    /// regular file is unchanged.
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
         let write = || {
             match &self.regular {
@@ -104,21 +101,20 @@ impl OutputFile {
         write().map_err(|cause| OutputError::write(&self.path, cause))
     }
 
-    /// Writes a new regular file and flushes it to the disk. Returns false if the path exists. Exactly one of several
-    /// concurrent writers succeeds, even on machines that share a file system. A failed write leaves no file.
+    /// Returns false if the path exists. Only one of several concurrent writers succeeds, even on a shared file system.
+    /// A failed write leaves no file.
     pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
         let Some(regular) = &self.regular else { return Ok(false) };
         match written(regular, bytes).and_then(|file| Ok(file.persist_noclobber(regular)?)) {
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
             written => drop(written.map_err(|cause| OutputError::write(&self.path, cause))?),
         }
-        // The folder stores the name of the file, so also flush the folder. Ignore errors: some systems cannot do this.
+        // Flush the folder, which stores the name of the file. Ignore errors: some systems cannot flush folders.
         let _ = fs::File::open(folder_of(regular)).and_then(|folder| folder.sync_all());
         Ok(true)
     }
 }
 
-/// A new temporary file beside `path`, with its contents on the disk.
 fn written(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
     let mut file = temporary_file(path)?;
     file.write_all(bytes)?;
@@ -126,7 +122,7 @@ fn written(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// A folder for results that contains only what sahara has written.
+/// A folder that contains only output of sahara.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFolder {
     pub path: PathBuf,
@@ -152,7 +148,6 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// Returns an error if the folder contains one of `inputs`. All links are followed.
     pub fn apart_from<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Result<Self, OutputError> {
         let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&self.resolved));
         let Some(input) = inputs.into_iter().find(is_inside) else { return Ok(self) };
@@ -160,7 +155,7 @@ impl OutputFolder {
         Err(OutputError::place(&self.path, problem))
     }
 
-    /// Replaces the contents of the folder with `files` (relative paths with `/`). A failure keeps the old contents.
+    /// Replaces the contents of the folder with `files`, whose names are relative paths with `/`.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
         self.write_in(|folder| {
             files.iter().try_for_each(|(name, bytes)| {
@@ -171,7 +166,7 @@ impl OutputFolder {
         })
     }
 
-    /// Like [`write`](Self::write), but `fill` receives a folder and writes the files, which need not fit into memory.
+    /// `fill` receives a temporary folder and writes the files there.
     pub fn write_in<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> Result<T, OutputError> {
         let replace = || {
             let new = temporary_folder(&self.resolved)?;
@@ -180,14 +175,13 @@ impl OutputFolder {
             names.push(MARK.into());
             fs::write(new.path().join(MARK), serde_json::to_vec_pretty(&names).expect("names are text"))?;
 
-            // Move the old folder aside. If the new folder cannot replace it, move it back.
             let aside = temporary_folder(&self.resolved)?;
             let old = aside.path().join("old");
             if self.resolved.exists() {
                 fs::rename(&self.resolved, &old)?;
             }
             fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
-            // The new folder was renamed: `keep` prevents `new` from removing its temporary path.
+            // `keep` prevents `new` from removing its temporary path, which was renamed.
             let _ = new.keep();
             Ok(filled)
         };
@@ -195,7 +189,7 @@ impl OutputFolder {
     }
 }
 
-/// All files and empty folders below `folder`, as relative paths with `/`.
+/// The files and empty folders below `folder`, as relative paths with `/`.
 fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
     let mut names = vec![];
     for entry in fs::read_dir(folder)? {
@@ -208,7 +202,7 @@ fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// The canonical path of a file. If the file is missing, its folder must exist.
+/// The file may be missing, but its folder must exist.
 fn resolved(path: &Path) -> io::Result<PathBuf> {
     path.canonicalize().or_else(|missing| {
         let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return Err(missing) };
@@ -216,22 +210,19 @@ fn resolved(path: &Path) -> io::Result<PathBuf> {
     })
 }
 
-/// The folder of a [`resolved`] path.
 fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(path)
 }
 
-/// A temporary file in the folder of `path`. Dropping the value removes the file.
 pub fn temporary_file(path: &Path) -> io::Result<NamedTempFile> {
     temporary(0o666).tempfile_in(folder_of(path))
 }
 
-/// Like [`temporary_file`], but creates a folder.
 fn temporary_folder(path: &Path) -> io::Result<TempDir> {
     temporary(0o777).tempdir_in(folder_of(path))
 }
 
-/// Creates temporary files and folders. On Unix, they have the permissions `mode` without the bits of the umask.
+/// On Unix, the permissions are `mode` without the bits of the umask.
 fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Builder<'static, 'static> {
     let mut builder = Builder::new();
     builder.prefix(".sahara-");
@@ -240,30 +231,27 @@ fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Buil
     builder
 }
 
-/// Whether a result goes to standard output; messages then go to standard error.
 static TO_STDOUT: AtomicBool = AtomicBool::new(false);
 
-/// The reason why standard output is incomplete; unset if the output is complete or its reader closed it.
+/// The first failure of standard output. A reader that closes the output causes no failure.
 pub static FAILURE: OnceLock<io::Error> = OnceLock::new();
 
-/// Whether a result goes to [`STDOUT`]; if so, messages for people go to standard error.
+/// Whether a result goes to [`STDOUT`]. Messages for people then go to standard error.
 pub fn stdout_is_taken() -> bool {
     TO_STDOUT.load(Ordering::Relaxed)
 }
 
-/// Writes to standard output; [`FAILURE`] records a failure.
 pub fn print(bytes: &[u8]) {
     let mut out = io::stdout().lock();
-    note(out.write_all(bytes).and_then(|()| out.flush()));
+    record_failure(out.write_all(bytes).and_then(|()| out.flush()));
 }
 
-pub fn note(written: io::Result<()>) {
+pub fn record_failure(written: io::Result<()>) {
     if let Err(cause) = unless_gone(written) {
         FAILURE.get_or_init(|| cause);
     }
 }
 
-/// Ignores the error of a closed output.
 fn unless_gone(written: io::Result<()>) -> io::Result<()> {
     match written {
         Err(cause) if cause.kind() == io::ErrorKind::BrokenPipe => Ok(()),
@@ -271,13 +259,12 @@ fn unless_gone(written: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Writes an error to standard error, on one line even if file names in it contain line breaks.
-pub fn tell_error(error: impl Display) {
-    tell(format_args!("error: {}", error.to_string().escaped()));
+/// Line breaks in file names are escaped: the error takes one line.
+pub fn print_error(error: impl Display) {
+    print_message(format_args!("error: {}", error.to_string().escaped()));
 }
 
-/// Writes a line to standard error. Failures, such as a closed output or a full disk, are ignored.
-pub fn tell(line: impl Display) {
+pub fn print_message(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 

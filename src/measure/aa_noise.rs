@@ -4,18 +4,17 @@ use super::estimate::Estimate;
 use super::interval::{Rerun, epoch_values};
 use super::summary::{Variance, mean};
 
-/// The A/A ratios of a run. One structure is built twice, and the two builds are timed as two structures. Without noise
-/// the ratio of their times is 1. Georges, Buytaert, Eeckhout ("Statistically rigorous Java performance evaluation",
-/// 2007) describe how to compare alternatives.
+/// One structure is built twice, and the two builds are timed as two structures. Without noise, the ratio of the two
+/// times is 1.
 ///
-/// Every interval includes the spread of ratios over epochs. If the A/A ratios differ from 1 by more than this spread,
-/// an effect varies between runs but not between epochs. The **A/A noise** is its size. Its square is the mean over the
-/// cells of (log ratio)^2 minus the sampling variance. More cells make the estimate more precise, not larger.
+/// The **A/A noise** is the size of effects that vary between runs but not between epochs.
+///
+/// # References
+/// Georges, Buytaert, Eeckhout: Statistically rigorous Java performance evaluation. 2007.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AaNoise {
-    /// One ratio per cell. Its interval does not include the A/A noise.
+    /// One ratio per cell. The intervals do not include the A/A noise.
     pub ratios: Vec<Estimate>,
-    /// The variance of a log A/A ratio between runs, beyond its variance between epochs.
     noise: Variance,
 }
 
@@ -26,7 +25,7 @@ impl Default for AaNoise {
 }
 
 impl AaNoise {
-    /// The noise of a run. Each of `cells` contains the [log ratios](super::log_ratios) of a structure to its twin.
+    /// Each cell contains the [log ratios](super::log_ratios) of a structure to its second build.
     pub fn new(cells: &[Vec<Vec<f64>>]) -> Self {
         let (mut ratios, mut squares) = (vec![], vec![]);
         for values in cells.iter().filter_map(|cell| epoch_values(std::slice::from_ref(cell))) {
@@ -37,37 +36,33 @@ impl AaNoise {
         if squares.is_empty() {
             return Self::default();
         }
-        // Use one degree of freedom per ratio, but at least the number of epochs minus 1. A single degree of freedom
-        // would make intervals several times as wide. The tests of `interval` measure the effect of this rule.
+        // A single degree of freedom would make intervals several times as wide. So the number of epochs minus 1 is the
+        // minimum.
         let epochs = cells.iter().map(Vec::len).max().unwrap_or(0);
         let freedom = squares.len().max(epochs.saturating_sub(1)).max(1) as f64;
         Self { ratios, noise: Variance { square: mean(&squares).max(0.0), freedom } }
     }
 
-    /// The A/A noise, as a standard deviation of ln(ratio); `None` without A/A ratios.
+    /// The A/A noise, as a standard deviation of ln(ratio).
     pub fn log(&self) -> Option<f64> {
         (!self.ratios.is_empty()).then(|| libm::sqrt(self.noise.square))
     }
 
-    /// The variance that the noise adds to the logarithm of one ratio of two structures; 0 without A/A ratios.
     pub fn of_ratio(&self) -> Variance {
         self.weighted(&[1.0, -1.0])
     }
 
-    /// The variance that the noise adds to the mean log ratio of `cells` independent cells.
     pub fn of_mean(&self, cells: usize) -> Variance {
         self.of_ratio().times(1.0 / libm::sqrt(cells.max(1) as f64))
     }
 
-    /// The variance that the noise adds to a weighted sum of log times, each of a different build. A log ratio has the
-    /// weights 1 and -1.
+    /// Each log time must belong to a different build.
     pub fn weighted(&self, weights: &[f64]) -> Variance {
         let squares: f64 = weights.iter().map(|weight| weight * weight).sum();
         self.noise.times(libm::sqrt(squares / 2.0))
     }
 
-    /// The number of ratios whose interval contains 1, and the number of ratios with an interval; `None` if no ratio
-    /// has an interval.
+    /// Returns the number of ratios whose interval contains 1, and the number of intervals.
     pub fn containing_one(&self) -> Option<(usize, usize)> {
         let known = self.ratios.iter().filter(|ratio| ratio.interval.is_some());
         let holding = known.clone().filter(|ratio| ratio.holds(1.0)).count();
@@ -79,7 +74,6 @@ impl AaNoise {
 mod tests {
     use super::*;
 
-    /// One cell per element of `logs`, with five epochs of the same A/A ratio.
     fn twins(logs: &[f64]) -> AaNoise {
         AaNoise::new(&logs.iter().map(|&log| vec![vec![log; 3]; 5]).collect::<Vec<_>>())
     }
@@ -97,7 +91,6 @@ mod tests {
 
     #[test]
     fn what_epochs_explain_is_left_out() {
-        // The mean is 0.01 and its standard error 0.012, so the spread of the epochs explains the mean.
         let epochs = [-0.02, 0.01, 0.04, 0.01].map(|log| vec![log]);
         let error = Variance::of_mean(&epochs.concat()).unwrap().square;
         let noise = AaNoise::new(&[epochs.to_vec()]);
@@ -109,10 +102,8 @@ mod tests {
         let noise = AaNoise::new(&[vec![vec![0.01, 0.03]]]);
         assert!((noise.log().unwrap() - 0.02).abs() < 1e-12);
         assert_eq!(noise.containing_one(), None);
-        // A cell with one epoch has no interval, even beside a cell with five epochs.
         let both = AaNoise::new(&[vec![vec![0.01, 0.03]], vec![vec![0.0; 3]; 5]]);
         assert_eq!((both.ratios.len(), both.containing_one()), (2, Some((1, 1))));
-        // The variance is proportional to the sum of the squared weights.
         let noise = twins(&[0.02; 4]);
         let squares = [noise.of_ratio(), noise.of_mean(4), noise.weighted(&[2.0])].map(|variance| variance.square);
         assert!(squares.iter().zip([4e-4, 1e-4, 8e-4]).all(|(one, other)| (one - other).abs() < 1e-12), "{squares:?}");

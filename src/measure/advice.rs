@@ -1,17 +1,16 @@
-//! Warnings about a run, with remedies. Pure functions: this module measures nothing.
+//! Warnings about a run, with remedies.
 
 use super::{Provenance, machine};
 use crate::plural::plural;
 
-/// More interruptions per second than this mean that another program uses the core.
+/// More interruptions per second mean that another program uses the core.
 const INTERRUPTIONS: f64 = 20.0;
 
 /// A core whose clock rate falls below this fraction of its initial value is throttled.
 const CLOCK_FALL: f64 = 0.9;
 
-/// Returns one sentence for each condition that disturbs measurements. `before` describes the machine before the run.
-/// `seconds` is the duration of the timed part, and `interruptions` counts how often the system took the core from the
-/// measuring thread in this time. `clock_rates` are the kHz at the beginning and at the end. `None` means unknown.
+/// `seconds` is the duration of the timed part. `interruptions` counts how often the system took the core from the
+/// measuring thread. `clock_rates` has the kHz at the beginning and at the end.
 pub fn of_conditions(
     before: &Provenance,
     seconds: f64,
@@ -53,8 +52,7 @@ pub fn of_conditions(
 /// The plausible range of the elapsed time, as a multiple of the time that a runner reports.
 const OWN_CLOCK: std::ops::RangeInclusive<f64> = 0.95..=1.25;
 
-/// A warning if the clock of the runner `label` disagrees with the elapsed time; `outside` is the ratio of the elapsed
-/// time to the reported one.
+/// `outside` is the ratio of the elapsed time to the time that the runner `label` reports.
 pub fn of_own_clock(label: &str, outside: f64) -> Option<String> {
     let why = if outside < 1.0 {
         "its times are not seconds, or are sums over threads: report the elapsed time"

@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use super::Threads;
 
-/// A monotonic clock. It is a trait because tests replace it with a mock clock.
 pub trait Clock {
     /// Nanoseconds since some fixed moment.
     fn now_ns(&self) -> u64;
@@ -13,15 +12,12 @@ pub trait Clock {
 /// Times work and subtracts the cost of reading the clock.
 pub struct Stopwatch<'a> {
     clock: &'a dyn Clock,
-    /// The cost of reading the clock.
     reading_ns: u64,
 }
 
-/// The cost of reading the clock is the minimum of this many measurements.
 const READINGS: usize = 256;
 
 impl<'a> Stopwatch<'a> {
-    /// Measures the cost of reading `clock`, which takes a few hundred readings.
     pub fn new(clock: &'a dyn Clock) -> Self {
         let reading = |_| {
             let start = clock.now_ns();
@@ -30,7 +26,6 @@ impl<'a> Stopwatch<'a> {
         Self { clock, reading_ns: (0..READINGS).map(reading).min().unwrap_or(0) }
     }
 
-    /// The time of `work`, ns.
     #[inline]
     pub fn time(&self, work: impl FnOnce()) -> u64 {
         let start = self.clock.now_ns();
@@ -39,11 +34,9 @@ impl<'a> Stopwatch<'a> {
     }
 }
 
-/// The operating system's monotonic clock.
 pub struct SystemClock(Instant);
 
 impl SystemClock {
-    /// A clock that counts from now.
     pub fn start() -> Self {
         Self(Instant::now())
     }
@@ -56,19 +49,17 @@ impl Clock for SystemClock {
     }
 }
 
-/// Processor time: it stops while another program, or the host of a virtual machine, uses the core. For work on one
-/// thread it is the time that would elapse on an idle machine.
+/// Processor time. The clock stops while another program, or the host of a virtual machine, uses the core.
 #[derive(Clone, Copy)]
 pub enum CpuClock {
     /// The time of the calling thread, for passes.
     Thread,
-    /// The time of the whole process, for builds. It includes the work of threads that a builder starts.
+    /// The time of all threads of the process, for builds.
     Process,
 }
 
 impl CpuClock {
-    /// This clock, if `threads` is a single thread and the system has the clock. If the result is `None`, use the
-    /// elapsed time.
+    /// `None` with several threads, or if the system has no such clock.
     pub fn on(self, threads: &Threads) -> Option<Self> {
         (threads.count() == 1 && self.read_ns().is_some()).then_some(self)
     }

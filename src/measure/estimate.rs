@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::quantiles::{LEVEL, factor};
 use super::summary::Variance;
 
-/// An estimate with its 95 % [interval](mod@super::interval); a single epoch gives no interval.
+/// An estimate with its 95 % [interval](mod@super::interval). A single epoch gives no interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Flat", into = "Flat")]
 pub struct Estimate {
@@ -13,17 +13,15 @@ pub struct Estimate {
     pub interval: Option<Interval>,
 }
 
-/// The ends of a 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     pub low: f64,
     pub high: f64,
-    /// Degrees of freedom of Student's t; infinite for a constant. They determine how much wider the interval becomes
-    /// if several intervals are judged together.
+    /// Degrees of freedom of Student's t, infinite for a constant.
     pub freedom: f64,
 }
 
-/// The fields of an estimate in JSON files. `null` represents a missing interval or infinite degrees of freedom.
+/// In JSON files, `null` represents a missing interval or infinite degrees of freedom.
 #[derive(Serialize, Deserialize)]
 struct Flat {
     estimate: f64,
@@ -49,7 +47,6 @@ impl From<Estimate> for Flat {
 }
 
 impl Estimate {
-    /// An estimate without an interval.
     pub fn alone(estimate: f64) -> Self {
         Self { estimate, interval: None }
     }
@@ -59,44 +56,38 @@ impl Estimate {
         Self::between(estimate, estimate, estimate)
     }
 
-    /// An estimate between two ends, with infinite degrees of freedom.
     pub fn between(estimate: f64, low: f64, high: f64) -> Self {
         Self { estimate, interval: Some(Interval { low, high, freedom: f64::INFINITY }) }
     }
 
-    /// The lower end, if known.
     pub fn low(&self) -> Option<f64> {
         self.interval.map(|interval| interval.low)
     }
 
-    /// The upper end, if known.
     pub fn high(&self) -> Option<f64> {
         self.interval.map(|interval| interval.high)
     }
 
-    /// Whether the interval is known and all of it lies above `bound`.
     pub fn is_above(&self, bound: f64) -> bool {
         self.low().is_some_and(|low| low > bound)
     }
 
-    /// Whether the interval is known and all of it lies below `bound`.
     pub fn is_below(&self, bound: f64) -> bool {
         self.high().is_some_and(|high| high < bound)
     }
 
-    /// Whether the interval is known and contains `value`.
     pub fn holds(&self, value: f64) -> bool {
         self.interval.is_some_and(|interval| (interval.low..=interval.high).contains(&value))
     }
 
-    /// Applies the increasing function `of` to the estimate and to the ends of its interval.
+    /// `of` must be an increasing function.
     pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
         let ends = |Interval { low, high, freedom }: Interval| Interval { low: of(low), high: of(high), freedom };
         Self { estimate: of(self.estimate), interval: self.interval.map(ends) }
     }
 
-    /// The estimate, if `looks` estimates are judged together. Its interval is widened (Bonferroni): with probability
-    /// 95 %, all `looks` intervals contain their values. Both sides grow by the same factor.
+    /// Widens the interval for `looks` estimates that are judged together (Bonferroni). With probability 95 %, all
+    /// `looks` intervals then contain their values.
     pub fn among(self, looks: usize) -> Self {
         if looks < 2 {
             return self;
@@ -109,12 +100,12 @@ impl Estimate {
         Self { interval: self.interval.map(grown), ..self }
     }
 
-    /// Like [`among`](Self::among), for a positive ratio: the interval grows on a logarithmic scale.
+    /// The interval grows on a logarithmic scale.
     pub fn ratio_among(self, looks: usize) -> Self {
         self.map(libm::log).among(looks).map(libm::exp)
     }
 
-    /// The quotient of two positive estimates with independent errors: the squares of their relative errors add up.
+    /// The quotient of two positive estimates with independent errors. The squares of the relative errors add up.
     pub fn over(self, other: Self) -> Self {
         let log = libm::log(self.estimate / other.estimate);
         let part = |x: Self| {
@@ -166,7 +157,7 @@ mod tests {
         let quotient = tenth(15.0).over(tenth(10.0));
         let Interval { high, freedom, .. } = quotient.interval.unwrap();
         assert!((quotient.estimate - 1.5).abs() < 1e-12 && (freedom - 16.0).abs() < 1e-9);
-        // t is 2.306 with eight degrees of freedom and 2.120 with sixteen.
+        // Student's t is 2.306 with eight degrees of freedom and 2.120 with sixteen.
         let expected = libm::log(1.1) * libm::sqrt(2.0) * 2.120 / 2.306;
         assert!((libm::log(high / 1.5) / expected - 1.0).abs() < 1e-3);
         assert_eq!(Estimate::exact(3.0).over(Estimate::exact(2.0)).high(), Some(1.5));
@@ -175,7 +166,7 @@ mod tests {
 
     #[test]
     fn among_many_an_interval_is_wider() {
-        // Student's t with four degrees of freedom: 2.776 for one interval (5 %), 4.604 for one of five (1 %).
+        // Student's t with four degrees of freedom is 2.776 at 5 % and 4.604 at 1 %.
         let one = Estimate { estimate: 1.2, interval: Some(Interval { low: 1.1, high: 1.3, freedom: 4.0 }) };
         let five = one.among(5);
         assert!((five.high().unwrap() - (1.2 + 0.1 * 4.604 / 2.776)).abs() < 1e-4, "{five:?}");

@@ -1,4 +1,4 @@
-//! Facts about the machine: load, clock rates, memory, floating-point mode. Unknown facts are `None`.
+//! Facts about the machine. Unknown facts are `None`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -6,25 +6,23 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-/// The load average of the last minute, read at the first call, because later values include the load of this process.
+/// The load average of the last minute, read at the first call. Later values include the load of this process.
 pub fn load_at_start() -> Option<f64> {
     static LOAD: OnceLock<Option<f64>> = OnceLock::new();
     *LOAD.get_or_init(|| first_number(&fs::read_to_string("/proc/loadavg").ok()?))
 }
 
-/// The name of the policy with which the system chooses clock rates.
 pub fn governor(core: usize) -> Option<String> {
     let path = format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_governor");
     Some(fs::read_to_string(path).ok()?.trim().to_owned())
 }
 
-/// Clock rate of a core now, kHz.
+/// The present clock rate of a core, kHz.
 pub fn clock_rate(core: usize) -> Option<f64> {
     first_number(&fs::read_to_string(format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_cur_freq")).ok()?)
 }
 
-/// Bytes of memory that this process may use: the machine's memory, or less if its control groups (containers, jobs of
-/// a cluster) limit it.
+/// Bytes of memory that this process may use. Control groups (containers, cluster jobs) may limit the memory.
 pub fn memory() -> Option<u64> {
     let machine = || {
         let text = fs::read_to_string("/proc/meminfo").ok()?;
@@ -32,13 +30,12 @@ pub fn memory() -> Option<u64> {
         Some(kib as u64 * 1024)
     };
     let groups = limits(&fs::read_to_string("/proc/self/cgroup").unwrap_or_default());
-    // Without a limit the file contains a word instead of a number.
+    // Without a limit, the file contains a word instead of a number.
     let limit = |file: &PathBuf| fs::read_to_string(file).ok()?.trim().parse().ok();
     machine().into_iter().chain(groups.iter().filter_map(limit)).min()
 }
 
-/// The files with the memory limits of a process's control groups and their parent groups; `groups` is the content of
-/// `/proc/self/cgroup`. Inside a container some of these files do not exist.
+/// `groups` is the content of `/proc/self/cgroup`. Inside a container, some of the returned files do not exist.
 fn limits(groups: &str) -> Vec<PathBuf> {
     let files = |line: &str| {
         let mut fields = line.splitn(3, ':').skip(1);
@@ -55,7 +52,7 @@ fn limits(groups: &str) -> Vec<PathBuf> {
     groups.lines().filter_map(files).flatten().collect()
 }
 
-/// How often the system has taken the core from the calling thread so far (involuntary context switches).
+/// The number of involuntary context switches of the calling thread.
 #[cfg(target_os = "linux")]
 pub fn interruptions() -> Option<u64> {
     use nix::sys::resource::{UsageWho, getrusage};
@@ -89,11 +86,11 @@ fn first_number(text: &str) -> Option<f64> {
     text.split_whitespace().next()?.parse().ok()
 }
 
-/// The control word of floating-point arithmetic (MXCSR), if the processor has one, without its sticky exception flags.
+/// MXCSR, the control word of floating-point arithmetic, without its sticky exception flags.
 #[cfg(target_arch = "x86_64")]
 pub fn mxcsr() -> Option<u32> {
     let mut word = 0_u32;
-    // SAFETY: `stmxcsr` is part of SSE, which every x86-64 processor has. It writes four bytes, and `word` is a `u32`.
+    // SAFETY: every x86-64 processor has `stmxcsr`. The instruction writes four bytes, the size of `word`.
     unsafe { std::arch::asm!("stmxcsr [{}]", in(reg) &raw mut word, options(nostack, preserves_flags)) };
     Some(word & !0x3f)
 }
@@ -103,7 +100,6 @@ pub fn mxcsr() -> Option<u32> {
     None
 }
 
-/// The effect of the control word on denormal numbers.
 pub fn denormals(mxcsr: Option<u32>) -> &'static str {
     let Some(word) = mxcsr else { return "unknown" };
     match (word & 1 << 15 != 0, word & 1 << 6 != 0) {
@@ -142,7 +138,7 @@ mod tests {
         assert_eq!(denormals(Some(0x9f80)), "results flushed to zero");
         assert_eq!(denormals(Some(0x9fc0)), "denormal operands read as zero, results flushed to zero");
         assert_eq!(denormals(None), "unknown");
-        // Nothing in this crate may flush denormals: hits would differ between machines.
+        // No code may flush denormals, because hits would differ between machines.
         assert!(matches!(denormals(mxcsr()), "kept" | "unknown"));
     }
 }

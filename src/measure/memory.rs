@@ -4,9 +4,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// The system's allocator with a counter that runs during [`peak_bytes`]; at other times an allocation only loads a
-/// flag. A program installs it with `#[global_allocator]`, as the command `sahara` does; otherwise peaks are unknown.
-/// Allocations of C and C++ code are not counted.
+/// Counts allocations during [`peak_bytes`]. Allocations of C and C++ code are not counted.
 pub struct CountingAllocator;
 
 static COUNTS: AtomicBool = AtomicBool::new(false);
@@ -23,8 +21,8 @@ impl CountingAllocator {
     }
 }
 
-// SAFETY: every method passes its arguments unchanged to `System`, which fulfils the contract of `GlobalAlloc`;
-// counting neither allocates nor panics.
+// SAFETY: every method passes its arguments unchanged to `System`, which fulfils the contract of `GlobalAlloc`.
+// Counting neither allocates nor panics.
 unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         Self::add(layout.size() as isize);
@@ -51,12 +49,11 @@ unsafe impl GlobalAlloc for CountingAllocator {
     }
 }
 
-/// Runs `work`. Returns its result and the peak increase of allocated bytes on all threads; the peak is `None` if the
-/// [`CountingAllocator`] is not installed. Only one call runs at a time; other calls wait. During a call, each
-/// allocation takes two more atomic operations.
+/// Returns the peak increase of allocated bytes on all threads. The peak is `None` if the [`CountingAllocator`] is not
+/// installed.
 pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     static ONE: Mutex<()> = Mutex::new(());
-    /// Stops the counter when it is dropped, also after a panic.
+    /// Stops the counter on drop, also after a panic.
     struct Counting;
     impl Drop for Counting {
         fn drop(&mut self) {
@@ -69,7 +66,7 @@ pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     PEAK.store(0, Ordering::Relaxed);
     COUNTS.store(true, Ordering::Relaxed);
     let counting = Counting;
-    // Probe whether the allocator is installed: if it is, it counts this allocation.
+    // An installed allocator counts this allocation.
     drop(std::hint::black_box(Box::new(0_u64)));
     let installed = PEAK.load(Ordering::Relaxed) > 0;
     let result = work();
@@ -84,7 +81,7 @@ mod tests {
 
     #[test]
     fn the_peak_is_the_most_at_once() {
-        // The test program does not install the allocator: call it directly.
+        // The test program does not install the allocator.
         let of = |bytes| Layout::from_size_align(bytes, 8).unwrap();
         let (counted, peak) = peak_bytes(|| {
             // SAFETY: no layout has size 0, no pointer is dereferenced, and every block is freed with its current

@@ -1,9 +1,8 @@
-//! The order of the samples.
+//! Random orders of samples.
 
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-/// A seeded generator of random orders and numbers.
 pub struct RandomOrder(Pcg64Mcg);
 
 impl RandomOrder {
@@ -29,8 +28,7 @@ impl RandomOrder {
         order
     }
 
-    /// The indices of all members, group by group: the groups in random order, and the members of each group in random
-    /// order. `groups` contains the group of each member.
+    /// `groups` contains the group of each member. The members of a group follow one another.
     pub fn shuffled_by_group(&mut self, groups: &[usize]) -> Vec<usize> {
         let ranks = self.shuffled(groups.iter().max().map_or(0, |last| last + 1));
         let mut order = self.shuffled(groups.len());
@@ -39,7 +37,6 @@ impl RandomOrder {
     }
 }
 
-/// Random numbers for tests.
 #[cfg(test)]
 impl RandomOrder {
     /// A number strictly between 0 and 1.
@@ -69,7 +66,7 @@ mod tests {
         }
         let is_order = |order: &Vec<usize>| (0..3).all(|i| order.contains(&i));
         assert!(counts.len() == 6 && counts.keys().all(is_order), "{counts:?}");
-        // The count of each order has mean 1000; five standard deviations are 144.
+        // The count of each order has mean 1000. Five standard deviations are 144.
         assert!(counts.values().all(|&n| (856..=1144).contains(&n)), "{counts:?}");
     }
 

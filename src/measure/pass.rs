@@ -1,4 +1,4 @@
-//! One structure that traces one workload in this process, in batches, as in a renderer.
+//! Times one structure on one workload in this process.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -16,11 +16,11 @@ use crate::geometry::Ray;
 struct Piece<'a> {
     rays: Box<dyn Loaded + 'a>,
     count: usize,
-    /// The [levels](super::tiles) whose time includes this piece, one bit per chosen level. 0 for an untimed lead-in.
+    /// One bit per chosen [level](super::tiles) whose time includes this piece. 0 for an untimed lead-in.
     levels: u32,
 }
 
-/// Traces the pieces one after the other and stores the results from index `first` on. Returns the index after them.
+/// Stores the results from index `first` on. Returns the index after the last result.
 fn query_all(results: &mut QueryResults, first: usize, pieces: &[Piece]) -> usize {
     pieces.iter().fold(first, |first, piece| {
         results.query(first..first + piece.count, piece.rays.as_ref());
@@ -28,7 +28,6 @@ fn query_all(results: &mut QueryResults, first: usize, pieces: &[Piece]) -> usiz
     })
 }
 
-/// Traces the pieces on all threads and stores the results from index 0 on, in the order of the pieces.
 fn share(results: &mut QueryResults, pieces: &[&Piece], threads: &Threads) {
     fn each<T: Send>(mut rest: &mut [T], pieces: &[&Piece], query: fn(&dyn Loaded, &mut [T]), threads: &Threads) {
         let own = |piece: &&Piece| rest.split_off_mut(..piece.count).expect("there is a result for each ray");
@@ -41,8 +40,8 @@ fn share(results: &mut QueryResults, pieces: &[&Piece], threads: &Threads) {
     }
 }
 
-/// Divides `all` into `count` ranges of about equal length and selects a pseudo-random item of each range. Selects all
-/// items if there are at most `count`. Items at equal distances could lie in only a few columns of an image.
+/// Selects a pseudo-random item of each of `count` ranges of about equal length. Items at equal distances could lie in
+/// only a few columns of an image.
 pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     if count >= all.len() {
         return all.to_vec();
@@ -52,12 +51,9 @@ pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     (0..count).map(|i| all[part(i) + random.below(part(i + 1) - part(i))]).collect()
 }
 
-/// A structure, a workload and a query: the unit of timing.
-///
-/// A single thread traces the rays in the order of the workload; several threads divide them. A pass begins with an
-/// untimed lead-in over the last rays of the workload: caches and branch predictors are then in the state of this
-/// structure, not in the state of the structure timed before. On one thread, a tile that does not adjoin the tile
-/// before it has a short lead-in as well.
+/// A pass begins with an untimed lead-in over the last rays of the workload. The lead-in brings caches and branch
+/// predictors into the state of this structure. On one thread, a tile that does not adjoin the previous tile also has a
+/// short lead-in.
 pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
     threads: &'a Threads,
@@ -68,28 +64,25 @@ pub struct Pass<'a> {
     levels: usize,
     results: QueryResults,
     lead_in_results: QueryResults,
-    /// The number of rays of the lead-in and the checksum of their results; `None` if a pass traces only a subset.
+    /// The number of lead-in rays, and the checksum of their results. `None` if a pass traces only a subset.
     lead_in_checksum: Option<(usize, u64)>,
-    /// Picoseconds per ray of the lead-in. Without a lead-in it is `u128::MAX`, and tiles have no lead-in either.
+    /// Picoseconds per ray. `u128::MAX` without a lead-in, so tiles have no lead-in.
     lead_in_ps: u128,
-    /// Whether the last `clear` filled the results with hits. It alternates between hits and misses: a pass that does
-    /// not write a result then has two different checksums.
+    /// Whether the last `clear` filled the results with hits. `clear` alternates between hits and misses, so missing
+    /// results change the checksum.
     filled: bool,
 }
 
 /// The lead-in of a pass has an eighth of the rays of the workload.
 pub(super) const LEAD_IN_SHARE: usize = 8;
 
-/// Time limit of the lead-in if only a subset of the rays is timed: slow structures need fewer rays to fill the caches.
+/// Time limit of the lead-in if only a subset of the rays is timed. Slow structures need fewer rays to fill the caches.
 const LEAD_IN: Duration = Duration::from_millis(10);
 
-/// Time limit of the lead-in of a tile, which has at most [`TILE`] rays. Caches load the data of a tile within this
-/// time, so slow structures use fewer rays.
+/// Caches load the data of a tile within this time.
 const TILE_LEAD_IN_NS: u128 = 200_000;
 
 impl<'a> Pass<'a> {
-    /// A pass over all rays.
-    ///
     /// # Panics
     /// If there are no rays.
     pub fn new(accel: &'a dyn DynAccel, rays: &'a [Ray], query: Query, threads: &'a Threads) -> Self {
@@ -116,8 +109,7 @@ impl<'a> Pass<'a> {
         Piece { rays: self.accel.load(Cow::Borrowed(&self.all[first..first + count])), count, levels }
     }
 
-    /// The lead-in of a tile that starts at `end`: the rays before `end`, or the last rays of the workload if too few
-    /// precede `end`. Each piece has half of the remaining rays, so a slow structure can skip the first pieces.
+    /// Each piece has half of the remaining rays, so a slow structure can skip the first pieces.
     fn before(&self, end: usize) -> impl Iterator<Item = Piece<'a>> {
         let count = TILE.min(self.all.len());
         let mut rest = if end < count { self.all.len() - count..self.all.len() } else { end - count..end };
@@ -139,7 +131,6 @@ impl Timed for Pass<'_> {
         let own = &tiles_of[0];
         let timed: usize = own.iter().map(ExactSizeIterator::len).sum();
 
-        // Cut a tile where a tile of another level begins or ends.
         let mut pieces = vec![];
         let mut end = None;
         for tile in own {
@@ -160,7 +151,7 @@ impl Timed for Pass<'_> {
             }
         }
 
-        // If only a subset is timed, the first pieces are small: a slow structure can then stop early.
+        // If only a subset is timed, the first pieces are small, so a slow structure can stop early.
         let lead_in = self.all.len() / LEAD_IN_SHARE;
         let mut first = self.all.len() - lead_in;
         let mut size = if levels[0] == 0 { TILE } else { 1 };
@@ -198,8 +189,7 @@ impl Timed for Pass<'_> {
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.levels];
         if self.threads.count() > 1 {
-            // Threads divide the rays of a level, so each level is timed separately. The first level runs last, because
-            // later code reads its results.
+            // The first level runs last, because `checksum` reads its results.
             for level in (0..self.levels).rev() {
                 let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;
                 let pieces: Vec<&Piece> = self.pieces.iter().filter(of_level).collect();

@@ -1,7 +1,7 @@
-//! Ends programs together with all programs that they have started.
+//! Ends a program together with all programs that it has started.
 //!
-//! On Linux each program leads its own process group, and the whole group is killed. Only this process receives Ctrl-C;
-//! it ends its programs. On other systems only the program itself is killed, and it receives Ctrl-C as well.
+//! On Linux, each program leads a separate process group, and Ctrl-C reaches only this process. On other systems, only
+//! the program itself is killed, and Ctrl-C reaches the program as well.
 
 use std::io::{self, Read};
 #[cfg(target_os = "linux")]
@@ -18,20 +18,19 @@ use nix::{
     unistd::Pid,
 };
 
-/// Makes the program that `command` starts the leader of its own process group.
 #[cfg(target_os = "linux")]
 pub fn lead_process_group(command: &mut Command) {
     command.process_group(0);
-    // This process blocks the signals that it waits for, and a program inherits the mask: unblock them.
-    // SAFETY: between fork and exec only async-signal-safe calls are sound. The closure only calls `pthread_sigmask`
-    // and does not allocate, because its error is a number.
+    // A program inherits the signal mask of this process, which blocks some signals.
+    // SAFETY: between fork and exec, only async-signal-safe calls are sound. The closure calls only `pthread_sigmask`.
+    // The error is a number, so the closure does not allocate.
     unsafe { command.pre_exec(|| Ok(SigSet::empty().thread_set_mask()?)) };
 }
 
 #[cfg(not(target_os = "linux"))]
 pub fn lead_process_group(_: &mut Command) {}
 
-/// Whether a program has ended. The caller must still wait for it.
+/// The caller must still wait for the program.
 #[cfg(target_os = "linux")]
 fn has_ended(child: &mut Child) -> bool {
     state(child) != Ok(WaitStatus::StillAlive)
@@ -44,7 +43,7 @@ fn has_ended(child: &mut Child) -> bool {
 
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Whether a program ends within `limit`. The caller must still wait for it.
+/// The caller must still wait for the program.
 pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
     let start = Instant::now();
     while !has_ended(child) {
@@ -56,8 +55,7 @@ pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
     true
 }
 
-/// Runs a program and returns its output and exit status. If it takes longer than `limit`, kills the program and all
-/// programs that it has started, and returns `None`.
+/// Returns `None` after `limit`, and kills the program with all programs that it has started.
 ///
 /// # Errors
 /// If the program cannot be started or waited for, or its output cannot be read.
@@ -65,7 +63,7 @@ pub fn output_within(command: &mut Command, limit: Duration) -> io::Result<Optio
     lead_process_group(command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()));
     let mut child = command.spawn()?;
 
-    // Read both pipes concurrently: a full pipe would block the program.
+    // A full pipe would block the program, so both pipes are read concurrently.
     let (mut out, mut err) = (child.stdout.take().expect("piped"), child.stderr.take().expect("piped"));
     thread::scope(|scope| {
         let (out, err) = (scope.spawn(move || drain(&mut out)), scope.spawn(move || drain(&mut err)));
@@ -83,7 +81,7 @@ fn drain(pipe: &mut dyn Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Linux only: ends this process when the thread that started it ends. A leftover process would disturb the next run.
+/// Linux only. A leftover process would disturb the next run.
 pub fn end_with_parent() {
     #[cfg(target_os = "linux")]
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
@@ -100,7 +98,7 @@ pub fn end(child: &mut Child) {
     let _ = child.kill();
 }
 
-/// Kills the programs that a process has started. A program that leads a process group is killed with its group.
+/// A program that leads a process group is killed with its group.
 #[cfg(target_os = "linux")]
 pub fn end_started_by(process: u32) {
     let threads = std::fs::read_dir(format!("/proc/{process}/task")).into_iter().flatten().flatten();
@@ -109,7 +107,6 @@ pub fn end_started_by(process: u32) {
     children.split_whitespace().filter_map(|number| number.parse::<u32>().ok()).for_each(end_group);
 }
 
-/// Kills a program and the programs that it has started. A program that leads a process group is killed with its group.
 #[cfg(target_os = "linux")]
 fn end_group(first: u32) {
     end_started_by(first);
@@ -117,7 +114,7 @@ fn end_group(first: u32) {
     let _ = killpg(first, Signal::SIGKILL).or_else(|_| kill(first, Signal::SIGKILL));
 }
 
-/// The state of a program; an error if the program has been waited for.
+/// Fails with `ECHILD` if the program has already been waited for.
 #[cfg(target_os = "linux")]
 fn state(child: &Child) -> nix::Result<WaitStatus> {
     let looks = WaitPidFlag::WEXITED | WaitPidFlag::WNOHANG | WaitPidFlag::WNOWAIT;

@@ -8,34 +8,29 @@ use std::time::SystemTime;
 
 use sha2::{Digest, Sha256};
 
-/// The first 16 digits of the SHA-256 of the running program; `unknown` if its file cannot be read. Another source,
-/// compiler or flag gives other digits, even without a new commit.
+/// The first 16 digits of the SHA-256 of the running program. Another source, compiler or flag gives other digits, even
+/// without a new commit.
 pub fn build() -> &'static str {
     static BUILD: OnceLock<String> = OnceLock::new();
     BUILD.get_or_init(|| file_id(&executable()).unwrap_or_else(|_| "unknown".into()))
 }
 
-/// The file of the running program. On Linux the path remains valid after the file is replaced or deleted.
+/// On Linux, the path remains valid after the file is replaced or deleted.
 pub fn executable() -> PathBuf {
     let kept = Path::new("/proc/self/exe");
     if kept.exists() { kept.into() } else { std::env::current_exe().unwrap_or_default() }
 }
 
-/// The SHA-256 of bytes, in hexadecimal: it identifies data files and corpora.
 pub fn digest(bytes: &[u8]) -> String {
     format!("{:x}", Sha256::digest(bytes))
 }
 
-/// The first 16 digits of the SHA-256 of a file.
-///
 /// # Errors
 /// If the file cannot be read.
 pub fn file_id(path: &Path) -> io::Result<String> {
     file_sha256(path).map(|digits| digits[..16].to_owned())
 }
 
-/// The SHA-256 of a file, in hexadecimal.
-///
 /// # Errors
 /// If the file cannot be read.
 pub fn file_sha256(path: &Path) -> io::Result<String> {
@@ -44,7 +39,7 @@ pub fn file_sha256(path: &Path) -> io::Result<String> {
     Ok(format!("{:x}", hasher.finalize()))
 }
 
-/// The time of the first call, in UTC: `2026-03-01T12:30:59Z`.
+/// The time of the first call in UTC, such as `2026-03-01T12:30:59Z`.
 pub fn started() -> &'static str {
     static STARTED: OnceLock<String> = OnceLock::new();
     STARTED.get_or_init(|| humantime::format_rfc3339_seconds(SystemTime::now()).to_string())

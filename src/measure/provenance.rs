@@ -8,56 +8,44 @@ use crate::escaped::quoted;
 use crate::plural::plural;
 use crate::simd::Level;
 
-/// The facts for judging and repeating a measurement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     pub command: String,
     pub version: String,
-    /// Commit of the build, with `+changes` if the sources differed from it; `unknown` outside git.
+    /// The suffix `+changes` means that the sources differ from the commit.
     pub commit: String,
-    /// The first digits of the SHA-256 of the program; equal digits mean the same program. `unknown` if the program
-    /// cannot read its file.
     pub build: String,
     /// Start of the run, in UTC: `2026-03-01T12:30:59Z`.
     pub date: String,
     pub rustc: String,
     /// `release` or `debug`.
     pub profile: String,
-    /// The target triple.
     pub target: String,
-    /// Instruction set extensions that the compiler could use; the same for all structures.
+    /// Instruction set extensions that the compiler could use.
     pub target_features: String,
-    /// Instruction set of this suite's SIMD lanes.
     pub simd: String,
-    /// Name of the computer; `unknown` if the system does not report it.
     pub host: String,
-    /// Name of the processor; `unknown` if the system does not report it.
     pub cpu: String,
-    /// Processors available to this process.
     pub cores: usize,
-    /// Threads that built and traced; 1 by default.
     pub threads: usize,
     pub os: String,
     /// Version of obvhs, whose structures are the references of comparisons between runs.
     pub obvhs: String,
     /// The clock of samples: `cpu` for processor time of the thread, or `elapsed`.
     pub clock: String,
-    /// The core of each thread; `None` if threads were not bound.
+    /// The core of each thread.
     pub pinned: Option<Vec<usize>>,
     /// Whether each timed epoch of a scene was measured in a separate process.
     pub process_per_epoch: bool,
-    /// Control word of floating-point arithmetic, if the processor has one.
     pub mxcsr: Option<u32>,
-    /// The effect of `mxcsr` on denormal numbers; `kept` is correct.
+    /// Only `kept` is correct.
     pub denormals: String,
-    /// The name of the policy with which the system chooses clock rates.
     pub governor: Option<String>,
     /// Load average of the last minute before the run.
     pub load: Option<f64>,
 }
 
 impl Provenance {
-    /// The provenance of this process, which builds and traces on `threads` threads.
     pub fn capture(threads: usize) -> Self {
         let command: Vec<String> = std::env::args_os().map(quoted).collect();
         Self {
@@ -87,7 +75,6 @@ impl Provenance {
         }
     }
 
-    /// Like [`capture`](Self::capture), with the clock and the cores of `threads`.
     pub fn of(threads: &Threads) -> Self {
         let pinned = threads.cores().map(<[usize]>::to_vec);
         let core = pinned.as_ref().map_or(0, |cores| cores[0]);
@@ -95,15 +82,13 @@ impl Provenance {
         Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 
-    /// The facts that affect the speed of a program. Hosts with equal facts count as one machine: their cases can be
-    /// epochs of one measurement, because samples are paired only within a case.
+    /// The facts that affect the speed of a program. Hosts with equal facts count as one machine.
     pub fn machine(&self) -> Map<String, Value> {
         let facts = "version commit build rustc profile target_features simd cpu threads process_per_epoch";
         let all = serde_json::to_value(self).expect("keys are text");
         facts.split(' ').map(|name| (name.to_owned(), all[name].clone())).collect()
     }
 
-    /// A warning if there are more threads than processors.
     pub fn too_many_threads(&self) -> Option<String> {
         let Self { threads, cores, .. } = self;
         (threads > cores).then(|| {
@@ -115,8 +100,7 @@ impl Provenance {
         })
     }
 
-    /// The instruction set that our SIMD lanes select at run time, if the build does not enable it. Libraries without
-    /// run-time dispatch use only instruction sets that the build enables.
+    /// Libraries without run-time dispatch use only instruction sets that the build enables.
     fn lacking(&self) -> Option<&'static str> {
         let needed = match self.simd.as_str() {
             "avx512" => "avx512f",
@@ -126,7 +110,6 @@ impl Provenance {
         (!self.target_features.split(',').any(|feature| feature == needed)).then_some(needed)
     }
 
-    /// One line for the foot of a table.
     pub fn line(&self) -> String {
         let threads = plural(self.threads, "thread");
         let pinned = match self.pinned.as_deref() {
@@ -136,7 +119,6 @@ impl Provenance {
         };
         let Self { cpu, simd, rustc, version, commit, profile, date, .. } = self;
         let day = date.split('T').next().unwrap_or(date);
-        // Omit the commit of the compiler; exports contain it.
         let rustc = rustc.split(" (").next().unwrap_or(rustc);
         let lacking = self.lacking().map_or(String::new(), |feature| {
             format!(" (baselines are built without {feature}: set target-cpu=native)")

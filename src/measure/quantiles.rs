@@ -1,11 +1,11 @@
-//! Quantiles of Student's t, for the width of intervals, and of the beta distribution, for the bounds of rates.
+//! Quantiles of Student's t and of the beta distribution.
 
 use std::cell::Cell;
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use statrs::function::beta::beta_reg;
 
-/// The probability that an interval, or any of the intervals judged together, does not contain its value: 5 %.
+/// The probability that an interval does not contain its value.
 pub const LEVEL: f64 = 0.05;
 
 /// The half-width of an interval that does not contain its value with probability `level`. The unit is one standard
@@ -16,7 +16,6 @@ pub const LEVEL: f64 = 0.05;
 pub fn factor(freedom: f64, level: f64) -> f64 {
     assert!(freedom >= 1.0, "an interval needs a degree of freedom");
     assert!((1e-6..1.0).contains(&level), "the level must be at least 1e-6 and below 1");
-    // Cache the last factor: tables use the same factor many times.
     thread_local! {
         static LAST: Cell<(f64, f64, f64)> = const { Cell::new((0.0, 0.0, 0.0)) };
     }
@@ -29,9 +28,9 @@ pub fn factor(freedom: f64, level: f64) -> f64 {
     factor
 }
 
-/// The value that |t| exceeds with probability `level`. For more than 1000 degrees of freedom it uses the series of
-/// Cornish and Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5), because `statrs` is
-/// wrong by 3e-6 at 10^5 degrees of freedom and does not return at 10^8. The relative error is below 1e-10.
+/// For many degrees of freedom, `statrs` is inaccurate or does not return. The function then uses the series of Cornish
+/// and Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5). The relative error is below
+/// 1e-10.
 fn quantile(freedom: f64, level: f64) -> f64 {
     const MANY: f64 = 1000.0;
     if freedom <= MANY {
@@ -48,15 +47,12 @@ fn quantile(freedom: f64, level: f64) -> f64 {
     z * (1.0 + terms.iter().rev().fold(0.0, |sum, term| (sum + term) / freedom))
 }
 
-/// The quantile of the beta distribution with the positive parameters `a` and `b`: the `x` for which the regularised
-/// incomplete beta function I_x(a, b) is `probability`.
-///
-/// The relative error is below 1e-5 for parameters up to 10^9 if `probability` is 0.95, and for parameters up to 10^5
-/// if it is at most 0.5: the continued fraction of `statrs` ends after 140 terms. The function bisects, because the
-/// quantile function of `statrs` is inaccurate for small quantiles and does not return for a = 2, b = 10^7.
+/// The relative error is below 1e-5 for parameters up to 10^9 if `probability` is 0.95. For a `probability` of at most
+/// 0.5, this bound requires parameters up to 10^5. The function bisects, because the quantile function of `statrs` may
+/// be inaccurate or not return.
 pub fn beta_quantile(probability: f64, a: f64, b: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
-    // Bisect first in the exponent: quantiles near 0 then have the same relative precision.
+    // Bisection of the exponent gives quantiles near 0 the same relative precision.
     while high > 1e-300 && beta_reg(a, b, high * 0.5) > probability {
         high *= 0.5;
     }
@@ -115,15 +111,13 @@ mod tests {
             for (n, error) in [(10.0, 1e-12), (1e4, 1e-9), (1e5, 1e-8)] {
                 close(beta_quantile(p, 1.0, n), -libm::expm1(libm::log1p(-p) / n), error);
             }
-            // The quantile of the arcsine distribution.
             let sine = libm::sin(std::f64::consts::FRAC_PI_2 * p);
             close(beta_quantile(p, 0.5, 0.5), sine * sine, 1e-12);
         }
-        // The bound on a rate after no event in n trials: about 3 / n.
         for n in [1e7, 1e9] {
             close(beta_quantile(0.95, 1.0, n), -libm::expm1(libm::log(0.05) / n), 1e-5);
         }
-        // The distribution is nearly normal: the quantile is 1.645 standard deviations above one half.
+        // The distribution is nearly normal. The quantile is 1.645 standard deviations above one half.
         for n in [1e3, 1e5, 1e7, 1e9] {
             let deviation = 0.5 / libm::sqrt(2.0 * n + 1.0);
             close(beta_quantile(0.95, n, n), 0.5 + 1.644_853_627 * deviation, deviation / n + 1e-9);

@@ -11,7 +11,6 @@ pub enum QueryResults {
 }
 
 impl QueryResults {
-    /// Misses of `count` rays.
     pub fn misses(query: Query, count: usize) -> Self {
         match query {
             Query::Closest => Self::Closest(vec![None; count]),
@@ -19,7 +18,6 @@ impl QueryResults {
         }
     }
 
-    /// Overwrites all results with misses. If `as_hits`, overwrites them with hits (closest hits with `t` = NaN).
     pub fn fill(&mut self, as_hits: bool) {
         let nowhere = Hit { t: f32::NAN, prim: PrimId::new(0) };
         match self {
@@ -28,7 +26,6 @@ impl QueryResults {
         }
     }
 
-    /// Traces a batch of rays and stores their results at the indices `at`, one per ray.
     pub fn query(&mut self, at: Range<usize>, rays: &dyn Loaded) {
         match self {
             Self::Closest(hits) => rays.closest_hits(&mut hits[at]),

@@ -1,23 +1,20 @@
-//! Decides before the first sample how many rays and samples each case (one structure on one workload) gets.
+//! Decides how many rays and samples each case (one structure on one workload) gets.
 
 use super::tiles::{last_level, level_within, rays_at};
 use super::{SamplePlan, Stopwatch, Timed, median};
 
-/// The size and the approximate cost of a case, before it is timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cost {
-    /// Rays of its workload, at least 1.
+    /// Rays of the workload, at least 1.
     pub rays: usize,
-    /// Approximate picoseconds per ray.
+    /// Picoseconds per ray.
     pub ps: u64,
     /// Cases with the same number are timed on the same number of rays.
     pub group: usize,
 }
 
-/// The rays and samples of all cases.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Allotment {
-    /// Samples of every case.
     pub runs: usize,
     /// The [level](super::tiles) of each case.
     pub levels: Vec<usize>,
@@ -25,8 +22,7 @@ pub struct Allotment {
     pub share_ns: u64,
 }
 
-/// Determines how many rays of each case and how many samples fit the budget. The result depends only on the arguments,
-/// so it is the same in all epochs and on all machines.
+/// The result depends only on the arguments, so all epochs have the same result.
 pub fn allot(cases: &[Cost], plan: &SamplePlan) -> Allotment {
     let mut levels: Vec<usize> = cases.iter().map(|case| level_within(case.rays, plan.most_rays)).collect();
     let cost = |case: usize, level: usize| {
@@ -58,19 +54,17 @@ pub fn allot(cases: &[Cost], plan: &SamplePlan) -> Allotment {
     Allotment { runs, levels, share_ns }
 }
 
-/// The minimum number of rays of the pilot, the first pass of a case, which measures its cost per ray.
+/// The minimum number of rays of the pilot pass, which measures a case's cost per ray.
 const PILOT: usize = 64;
 
 /// A pilot of this length measures the cost accurately enough.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
-/// The level of the pilot: the last level with at least 64 rays, or level 0 (all rays) if the workload has fewer.
 pub fn pilot_level(rays: usize) -> usize {
     (0..=last_level(rays)).rev().find(|&level| rays_at(rays, level) >= PILOT).unwrap_or(0)
 }
 
-/// Times `case` to find the first level, `from` or later, at which a sample takes at most `most_ns`. Returns the last
-/// level if the samples of all levels take longer.
+/// Finds the first level, `from` or later, at which a sample takes at most `most_ns`.
 pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most_ns: u64) -> usize {
     let all = case.rays();
     let mut pace = |level: usize| {
@@ -79,13 +73,13 @@ pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most
         let ns = case.run(watch)[0].max(1);
         (u128::from(ns) * 1000 / rays_at(all, level) as u128).max(1)
     };
-    // Time a pass over few rays. If it was too short, time a pass that is long enough for a good estimate.
+    // If the first pass is too short for a good estimate, a longer pass follows.
     let few = pilot_level(all).max(from);
     let first = pace(few);
     let rays = u128::from(LONG_PILOT_NS) * 1000 / first;
     let enough = (from..few).rev().find(|&level| rays_at(all, level) as u128 >= rays).unwrap_or(from);
     let ps = if enough < few && rays > rays_at(all, few) as u128 { pace(enough) } else { first };
-    // To the pass, add 1 / 8 for the lead-in, 1 / 4 for the next level, and 1 for the first pass, which warms caches.
+    // The factor 19 / 8 includes the lead-in (1 / 8), the next level (1 / 4) and a first pass.
     let fits = |level: &usize| rays_at(all, *level) as u128 * ps * 19 / 8 / 1000 <= u128::from(most_ns);
     let last = last_level(all);
     (from..last).find(fits).unwrap_or(last.max(from))
@@ -110,17 +104,14 @@ mod tests {
     #[test]
     fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
         let of = |budget_ns| rays(&cases(&[10, 15, 10_000]), &SamplePlan { budget_ns, ..PLAN });
-        // With lead-ins, all rays of the two fast cases take 1.84 ms, and all rays of the slow case 737 ms. The slow
-        // case may take eight times as long as the median case: 256 of its rays take 2.88 ms.
+        // With lead-ins, all rays take 1.84 ms in the two fast cases, and 737 ms in the slow case.
         assert_eq!(of(4_000_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(24_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(12_000_000), (2, vec![65_536, 65_536, 256]));
         assert_eq!(of(2_700_000), (1, vec![65_536, 65_536, 64]));
         assert_eq!(of(1_000_000), (1, vec![16_384, 4096, 64]));
-        // Without a limit for slow cases, samples are reduced first and all rays stay.
         let patient = SamplePlan { slowest: f64::INFINITY, budget_ns: 1_000_000_000, ..PLAN };
         assert_eq!(rays(&cases(&[10, 15, 10_000]), &patient), (1, vec![65_536; 3]));
-        // The rays of the last level always remain.
         assert_eq!(of(1), (1, vec![rays_at(65_536, last_level(65_536)); 3]));
         assert!(allot(&[], &PLAN).levels.is_empty());
     }

@@ -1,4 +1,4 @@
-//! One structure that traces one workload in a separate process.
+//! Times one structure on one workload in a separate process.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -11,11 +11,11 @@ use super::{Stopwatch, Timed};
 use crate::accel::{DynAccel, Loaded, Query, Remote};
 use crate::geometry::Ray;
 
-/// The reason why a pass failed; `None` if it has not failed.
+/// `None` if the pass has not failed.
 pub type Failure = Rc<RefCell<Option<String>>>;
 
-/// Like [`Pass`](super::Pass), for a [`Remote`] structure. The structure receives all rays of a level at once, because
-/// each request takes time, and it measures the time itself. A failure is stored and does not end the run.
+/// Each request takes time, so the structure receives all rays of a level at once. The structure measures the time
+/// itself. A failure is stored and does not end the run.
 pub struct RemotePass<'a> {
     accel: &'a dyn DynAccel,
     remote: &'a dyn Remote,
@@ -23,13 +23,11 @@ pub struct RemotePass<'a> {
     query: Query,
     /// One per level.
     batches: Vec<RayBatch<'a>>,
-    /// The last rays of the workload, an eighth as many as the timed rays.
     lead_in: Option<RayBatch<'a>>,
     results: QueryResults,
     lead_in_results: QueryResults,
-    /// Whether the lead-in of this pass was traced and its rays are also rays of the pass.
+    /// Whether the lead-in was traced, and the pass includes all rays of the lead-in.
     has_led_in: bool,
-    /// Whether the timed rays have been traced once.
     is_warm: bool,
     failure: Failure,
 }
@@ -46,8 +44,6 @@ impl RayBatch<'_> {
 }
 
 impl<'a> RemotePass<'a> {
-    /// A pass over all rays, and the [`Failure`] in which it stores the reason if it fails.
-    ///
     /// # Panics
     /// If there are no rays.
     pub fn new(accel: &'a dyn DynAccel, remote: &'a dyn Remote, rays: &'a [Ray], query: Query) -> (Self, Failure) {
@@ -70,7 +66,7 @@ impl<'a> RemotePass<'a> {
         (pass, failure)
     }
 
-    /// Whether the pass has failed. Stores the first failure of the structure.
+    /// Stores the first failure of the structure.
     fn has_failed(&self) -> bool {
         let failure = &mut *self.failure.borrow_mut();
         *failure = failure.take().or_else(|| self.remote.failure());
@@ -105,8 +101,8 @@ impl Timed for RemotePass<'_> {
     }
 
     fn lead_in(&mut self) {
-        // Trace the timed rays once before the first sample to warm the caches: the tiles of a subset may lie far from
-        // the rays of the lead-in.
+        // The tiles of a subset may lie far from the rays of the lead-in. So the timed rays are traced once to warm the
+        // caches.
         if !self.is_warm && !self.has_failed() {
             self.batches[0].query(&mut self.results);
             self.is_warm = true;
@@ -119,7 +115,7 @@ impl Timed for RemotePass<'_> {
 
     fn run(&mut self, _: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.batches.len()];
-        // The first level runs last, because later code reads its results.
+        // The first level runs last, because `checksum` reads its results.
         for (batch, ns) in self.batches.iter().zip(&mut ns).rev() {
             if self.has_failed() {
                 break;

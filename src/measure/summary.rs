@@ -1,7 +1,5 @@
-//! Medians, means and variances. Pure functions.
+//! Medians, means and variances.
 
-/// The median of `values`, the mean of the middle two if their number is even; `None` without values.
-///
 /// # Panics
 /// If a value is NaN.
 pub fn median(values: &[f64]) -> Option<f64> {
@@ -19,7 +17,6 @@ pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// A variance with its degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variance {
     /// At least 0.
@@ -29,10 +26,8 @@ pub struct Variance {
 }
 
 impl Variance {
-    /// The variance of a constant.
     pub const NONE: Self = Self { square: 0.0, freedom: f64::INFINITY };
 
-    /// The variance of the mean of `values`; `None` with fewer than two values.
     pub fn of_mean(values: &[f64]) -> Option<Self> {
         let (n, centre) = (values.len() as f64, mean(values));
         let squares: f64 = values.iter().map(|v| (v - centre) * (v - centre)).sum();
@@ -44,9 +39,11 @@ impl Variance {
         Self { square: self.square * factor * factor, ..self }
     }
 
-    /// The variance of a sum of independent parts, with the best-fitting degrees of freedom (Satterthwaite, "An
-    /// approximate distribution of estimates of variance components", 1946; for two parts, Welch, "The generalization
-    /// of Student's problem when several different population variances are involved", 1947).
+    /// The parts must be independent.
+    ///
+    /// # References
+    /// Satterthwaite: An approximate distribution of estimates of variance components. 1946. For two parts: Welch: The
+    /// generalization of Student's problem when several different population variances are involved. 1947.
     pub fn sum(parts: &[Self]) -> Self {
         let square: f64 = parts.iter().map(|part| part.square).sum();
         let spread: f64 = parts.iter().map(|part| part.square * part.square / part.freedom).sum();
@@ -70,7 +67,6 @@ mod tests {
     #[test]
     fn parts_add_up_and_the_less_known_one_weighs() {
         let part = |square, freedom| Variance { square, freedom };
-        // Equal parts: the degrees of freedom add up. A single varying part keeps its degrees of freedom.
         assert_eq!(Variance::sum(&[part(1.0, 4.0), part(1.0, 4.0)]), part(2.0, 8.0));
         assert_eq!(Variance::sum(&[part(1.0, 4.0), Variance::NONE]), part(1.0, 4.0));
         assert_eq!(Variance::sum(&[part(0.0, 4.0), part(0.0, 8.0)]), part(0.0, 4.0));

@@ -1,4 +1,4 @@
-//! The threads that build and trace, bound to cores, which keeps their caches warm.
+//! The threads that build and trace, bound to cores.
 
 use std::sync::{Arc, OnceLock};
 
@@ -10,31 +10,28 @@ use nix::{
 
 use super::machine;
 
-/// The threads that build and trace; clones share them.
+/// Clones share the same threads.
 #[derive(Clone)]
 pub struct Threads {
-    /// Empty until the threads start.
     pool: Arc<OnceLock<rayon::ThreadPool>>,
     count: usize,
-    /// The core of each thread, if they are bound.
     cores: Option<Vec<usize>>,
 }
 
 impl Threads {
-    /// Threads for measurements: each is bound to its own core if the system allows it and has enough cores.
+    /// Binds each thread to a separate core if the system allows the binding.
     ///
     /// # Errors
-    /// If the system does not provide that many threads.
+    /// If the system does not provide `count` threads.
     pub fn pinned(count: usize) -> Result<Self, String> {
         let threads = Self::unstarted(count);
         let pool = threads.start()?;
         Ok(Self { pool: Arc::new(OnceLock::from(pool)), ..threads })
     }
 
-    /// Like [`Threads::pinned`], but the threads start when they receive their first work. Threads without work do not
-    /// start, because they would disturb the timed thread.
+    /// The threads start with the first work, because idle threads would disturb the timed thread.
     pub fn unstarted(count: usize) -> Self {
-        // Read the load before these threads add to it.
+        // The load must be read before these threads add to the load.
         machine::load_at_start();
         Self { pool: Arc::default(), count, cores: choose(count) }
     }
@@ -52,22 +49,20 @@ impl Threads {
         })
     }
 
-    /// Checks before a long run whether the system provides this many threads. If they do not run yet, starts and ends
-    /// them.
+    /// Starts and ends the threads if they do not run yet.
     ///
     /// # Errors
-    /// If the system does not provide this many threads.
+    /// If the system does not provide the threads.
     pub fn check_available(&self) -> Result<(), String> {
         if self.pool.get().is_some() { Ok(()) } else { self.start().map(drop) }
     }
 
-    /// The core of each thread; `None` if they are not bound.
     pub fn cores(&self) -> Option<&[usize]> {
         self.cores.as_deref()
     }
 
-    /// Binds the calling thread until the guard is dropped, because with a single thread the caller itself traces.
-    /// `None` for several threads, or if threads are not bound.
+    /// A single thread traces on the caller, so the guard binds the caller. `None` for several threads, or if threads
+    /// are not bound.
     pub fn pin(&self) -> Option<Pin> {
         if self.count == 1 { Pin::to(*self.cores.as_ref()?.first()?) } else { None }
     }
@@ -76,8 +71,6 @@ impl Threads {
         self.count
     }
 
-    /// Runs `work` on these threads, including all parallel iterators in it.
-    ///
     /// # Panics
     /// If the threads are [unstarted](Self::unstarted) and the system cannot start them.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
@@ -89,14 +82,13 @@ impl Threads {
 /// The number of the calling thread in system calls. The first thread of a process has the number of the process.
 const THIS_THREAD: u32 = 0;
 
-/// A guard that binds the calling thread to a core. Dropping the guard restores the previous cores of the thread.
+/// Dropping the guard restores the previous cores of the thread.
 #[derive(Debug)]
 pub struct Pin {
     before: Vec<usize>,
 }
 
 impl Pin {
-    /// Binds the calling thread to `core`; `None` if the system does not allow it.
     pub fn to(core: usize) -> Option<Self> {
         let before = allowed(THIS_THREAD)?;
         bind(&[core]).then_some(Self { before })
@@ -110,17 +102,15 @@ impl Drop for Pin {
     }
 }
 
-/// The cores that the run has chosen for all of its processes.
 static CORES: OnceLock<Vec<usize>> = OnceLock::new();
 
-/// Gives these cores to all later groups of `cores.len()` threads, instead of idle cores. Only the first call counts.
+/// Later groups of `cores.len()` threads use these cores instead of idle cores. Only the first call counts.
 pub fn keep_to(cores: &[usize]) {
     CORES.get_or_init(|| cores.into());
 }
 
-/// The cores for `threads` threads: the cores given to [`keep_to`], or the cores that were the most idle during a tenth
-/// of a second. Among equally idle cores it prefers high numbers, because interrupts use low numbers. `None` if threads
-/// cannot be bound, or there are fewer cores than threads.
+/// High core numbers are preferred, because interrupts use low numbers. `None` if threads cannot be bound, or there are
+/// fewer cores than threads.
 fn choose(threads: usize) -> Option<Vec<usize>> {
     let mut cores = allowed(THIS_THREAD)?;
     if let Some(chosen) = CORES.get().filter(|chosen| chosen.len() == threads) {
@@ -137,8 +127,8 @@ fn choose(threads: usize) -> Option<Vec<usize>> {
     Some(cores)
 }
 
-/// Runs `work`, which starts a program. A program inherits the cores of the thread that starts it, so during `work` the
-/// calling thread may use all cores of the first thread of this process.
+/// A program inherits the cores of the thread that starts the program. So `work` may use all cores of the first thread
+/// of this process.
 pub fn on_all_cores<R>(work: impl FnOnce() -> R) -> R {
     let _pin = allowed(std::process::id()).zip(allowed(THIS_THREAD)).map(|(all, before)| {
         bind(&all);
@@ -147,14 +137,12 @@ pub fn on_all_cores<R>(work: impl FnOnce() -> R) -> R {
     work()
 }
 
-/// The cores that a thread may run on.
 #[cfg(target_os = "linux")]
 fn allowed(thread: u32) -> Option<Vec<usize>> {
     let set = sched_getaffinity(Pid::from_raw(thread as i32)).ok()?;
     Some((0..CpuSet::count()).filter(|&core| set.is_set(core).unwrap_or(false)).collect())
 }
 
-/// Restricts the calling thread to `cores`. Returns whether it worked.
 #[cfg(target_os = "linux")]
 fn bind(cores: &[usize]) -> bool {
     let (thread, mut set) = (Pid::from_raw(THIS_THREAD as i32), CpuSet::new());
@@ -190,7 +178,6 @@ mod tests {
     #[test]
     fn a_bound_thread_starts_programs_that_are_not() {
         let before = allowed(THIS_THREAD).unwrap();
-        // The first thread of the test program is not bound.
         let first = allowed(std::process::id()).unwrap();
         let pin = Pin::to(before[0]).unwrap();
         assert_eq!(on_all_cores(|| allowed(THIS_THREAD).unwrap()), first);

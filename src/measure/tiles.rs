@@ -1,12 +1,11 @@
-//! Selects the rays of a workload that are timed if there is no time for all of them.
+//! Selects a subset of the rays of a workload if there is no time for all rays.
 //!
-//! A workload lists the rays of its picture block by block ([`crate::scene::WorkloadKind`]), so a tile of consecutive
-//! rays is a block of pixels. A subset consists of whole tiles spread over the workload, because scattered single rays
-//! miss the caches more often than a picture does. Each epoch draws other tiles: the difference between tiles and
-//! picture is then part of the spread between epochs, and therefore of every interval.
+//! A tile of consecutive rays is a block of pixels. Scattered single rays miss the caches more often than a picture, so
+//! a subset consists of whole tiles. Each epoch draws other tiles, so the differences between tiles are part of every
+//! interval.
 //!
-//! Level 0 has all rays. Each further level has about a quarter of the rays of the level before it. Levels are nested,
-//! so the pass of a fast structure also times the rays of a slower structure.
+//! Each level has about a quarter of the rays of the previous level. Levels are nested, so the pass of a fast structure
+//! also times the rays of a slower structure.
 
 use std::ops::Range;
 
@@ -15,16 +14,15 @@ use super::RandomOrder;
 /// Rays of a tile at the first levels: a block of 32 by 32 pixels.
 pub const TILE: usize = 1024;
 
-/// A level has fewer tiles than the level before it if at least this many remain; otherwise it has smaller tiles.
+/// A level has fewer tiles than the previous level if at least this many remain. Otherwise the tiles become smaller.
 const FEWEST: usize = 64;
 
-/// The index ranges of the rays, out of `rays`, that are timed at `level` in `epoch`. The ranges are in order, and no
-/// range is empty. Level 0 contains all rays.
+/// The ranges are in order, and no range is empty.
 pub fn tiles(rays: usize, level: usize, epoch: usize) -> Vec<Range<usize>> {
     if level == 0 {
         return (0..rays).step_by(TILE).map(|first| first..(first + TILE).min(rays)).collect();
     }
-    // Use only whole tiles: a level then has the same number of rays in every epoch.
+    // With whole tiles, a level has the same number of rays in every epoch.
     let mut tiles: Vec<Range<usize>> = match rays / TILE {
         0 => std::iter::once(0..rays).collect(),
         whole => (0..whole).map(|i| i * TILE..(i + 1) * TILE).collect(),
@@ -51,23 +49,19 @@ fn shrunk(tiles: &[Range<usize>], random: &mut RandomOrder) -> Vec<Range<usize>>
     tiles.iter().map(quarter).collect()
 }
 
-/// The number of rays, out of `rays`, that are timed at `level`.
 pub fn rays_at(rays: usize, level: usize) -> usize {
     tiles(rays, level, 0).iter().map(Range::len).sum()
 }
 
-/// The first level with at most `most` of `rays` rays; the last level if all levels have more.
 pub fn level_within(rays: usize, most: usize) -> usize {
     (0..last_level(rays)).find(|&level| rays_at(rays, level) <= most).unwrap_or(last_level(rays))
 }
 
-/// The level at which `part` of `rays` rays are timed; `None` if there is no such level.
 pub fn level_of(rays: usize, part: usize) -> Option<usize> {
     let level = level_within(rays, part);
     (rays_at(rays, level) == part).then_some(level)
 }
 
-/// The level with the fewest rays: a tile is a single ray.
 pub fn last_level(rays: usize) -> usize {
     let is_last = |&level: &usize| level > 0 && tiles(rays, level, 0).iter().all(|tile| tile.len() <= 1);
     (0..usize::BITS as usize).find(is_last).expect("tiles shrink")
@@ -107,7 +101,7 @@ mod tests {
         assert_ne!(tiles(262_144, 1, 0), tiles(262_144, 1, 1));
         let mut drawn = vec![0; 256];
         (0..400).flat_map(|epoch| tiles(262_144, 1, epoch)).for_each(|tile| drawn[tile.start / TILE] += 1);
-        // On average, 100 of the 400 epochs draw a tile; five standard deviations are 43.
+        // On average, 100 of the 400 epochs draw a tile. Five standard deviations are 43.
         assert!(drawn.iter().all(|n| (57..=143).contains(n)), "{drawn:?}");
     }
 

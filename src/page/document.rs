@@ -1,4 +1,4 @@
-//! The content of a page, independent of its format: the answer, and sections of text, tables and figures.
+//! The content of a page, independent of the file format.
 
 use serde::Serialize;
 
@@ -12,38 +12,33 @@ pub struct Document {
     pub sections: Vec<Section>,
 }
 
-/// The summary at the top of a page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Answer {
-    /// A warning above the verdict; may be empty.
+    /// May be empty.
     pub banner: String,
     /// A few words, such as `Yes`.
     pub verdict: String,
-    /// The sentences that support the verdict, most important first.
+    /// The most important sentence is the first.
     pub sentences: Vec<String>,
     pub numbers: Vec<Headline>,
-    /// A chart of the numbers; `None` without numbers.
     #[serde(skip)]
     pub chart: Option<Chart>,
 }
 
-/// A single number of the summary.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Headline {
-    /// Printed in large type: `20.6 ×`.
     pub number: String,
-    /// The interval of the number; may be empty.
+    /// May be empty.
     pub interval: String,
     pub label: String,
 }
 
-/// A part of a report with its heading.
 #[derive(Clone, Debug, Default)]
 pub struct Section {
-    /// Letters, digits and hyphens; unique among the sections.
+    /// Letters, digits and hyphens. Unique among the sections.
     pub id: &'static str,
     pub title: &'static str,
-    /// The commands that produced the section, one per line; may be empty.
+    /// One command per line. May be empty.
     pub command: String,
     pub blocks: Vec<Block>,
 }

@@ -33,7 +33,6 @@ fn of_figure(figure: &Figure) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// The report as Markdown, which links to the files of the figures.
 pub fn markdown(document: &Document) -> String {
     let mut text = format!("# {}\n\n", escaped(&document.title));
     if !document.answer.banner.is_empty() {
@@ -51,7 +50,6 @@ pub fn markdown(document: &Document) -> String {
     text.trim_end().to_owned() + "\n"
 }
 
-/// A section under its heading, with its commands at the end.
 fn section(section: &Section, text: &mut String) {
     *text += &format!("## {}\n\n", escaped(section.title));
     blocks(&section.blocks, text);

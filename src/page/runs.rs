@@ -1,4 +1,4 @@
-//! Reads measured cases from journals and exports. The content of a file shows whether it is a case or an export.
+//! Reads measured cases from journals and exports.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,10 +13,8 @@ use crate::request::SceneRequest;
 use crate::study::journal::{self, CaseFile, JournalError};
 use crate::study::{Dataset, Studies, Study};
 
-/// The study that compares all structures.
 pub const COMPARE: &str = "compare";
 
-/// The reason why runs cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     #[error(
@@ -37,27 +35,25 @@ pub enum RunError {
     Empty { path: PathBuf },
 }
 
-/// The measurements of a page.
 #[derive(Default)]
 pub struct Runs<'a> {
     /// The measured studies, in the order of [`Studies`].
     pub studies: Vec<StudyRun<'a>>,
-    /// One sentence for each missing or omitted measurement and each ignored file.
+    /// One sentence for each missing or omitted measurement, and for each ignored file.
     pub notes: Vec<String>,
 }
 
-/// The measurements of a study and its report on them.
 pub struct StudyRun<'a> {
     pub study: &'a Study,
-    /// The dataset that the page shows: the settings, build and machine with the most cases.
+    /// The dataset with the most cases. The page shows only this dataset.
     pub dataset: Dataset,
     pub others: Vec<Dataset>,
     pub report: Report,
 }
 
 impl<'a> Runs<'a> {
-    /// Reads files and folders. In a folder, it reads all `.json` files and the journals. If a case was measured
-    /// several times, the newest measurement counts.
+    /// In a folder, reads all `.json` files and the journals. If a case was measured several times, the newest
+    /// measurement counts.
     pub fn read(paths: &[PathBuf], studies: &'a Studies) -> Result<Self, RunError> {
         let mut runs = Self::default();
         let mut cases = vec![];
@@ -99,7 +95,6 @@ impl<'a> Runs<'a> {
         self.studies.iter().find(|run| run.study.name == study)
     }
 
-    /// The provenances of the shown numbers.
     pub fn provenances(&self) -> Vec<&Provenance> {
         self.studies.iter().map(|run| &run.dataset.provenance).collect()
     }
@@ -108,7 +103,6 @@ impl<'a> Runs<'a> {
         each_once(self.studies.iter().flat_map(StudyRun::commands))
     }
 
-    /// All shown scenes.
     pub fn scenes(&self) -> Vec<SceneRequest> {
         let measured = self.studies.iter().flat_map(|run| &run.dataset.measured);
         each_once(measured.map(|measured| measured.case.scene.clone()))
@@ -121,12 +115,10 @@ impl StudyRun<'_> {
     }
 }
 
-/// The names of the scenes of a dataset in tables.
 pub fn scene_titles(dataset: &Dataset) -> Vec<String> {
     each_once(dataset.measured.iter().map(|measured| measured.case.scene_title()))
 }
 
-/// A line about a dataset that the page does not show.
 pub fn also_measured(dataset: &Dataset) -> String {
     let Provenance { cpu, commit, date, .. } = &dataset.provenance;
     let commands: Vec<String> =
@@ -135,7 +127,6 @@ pub fn also_measured(dataset: &Dataset) -> String {
     format!("Measured but not shown: {scenes} on {cpu}, commit {commit}, {day} ({}).", listed(&commands))
 }
 
-/// The cases in the file `path`. The notes of an export are added to `notes`.
 fn read(path: &Path, studies: &Studies, notes: &mut Vec<String>) -> Result<Vec<CaseFile>, RunError> {
     let text = fs::read_to_string(path).map_err(|cause| JournalError::Read { path: path.into(), cause })?;
     let value: Value = serde_json::from_str(&text).map_err(|cause| JournalError::damaged(path, &cause))?;
@@ -164,14 +155,14 @@ fn read(path: &Path, studies: &Studies, notes: &mut Vec<String>) -> Result<Vec<C
     Ok(cases.collect())
 }
 
-/// The files that may be runs: first in the folder `path`, then in each of its journals, sorted by name.
+/// The files of the folder `path` and of the journals in the folder.
 fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
     let journals = studies.iter().map(|study| path.join(study.name)).filter(|journal| journal.is_dir());
     let files = std::iter::once(path.to_path_buf()).chain(journals).map(|folder| journal::files(&folder));
     Ok(files.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
-/// Removes duplicates: cases of an export that are also in a journal.
+/// Removes duplicates: an export may repeat the cases of a journal.
 fn each_measured_once(cases: Vec<CaseFile>) -> Vec<CaseFile> {
     each_once_by(cases, |one, other| {
         one.epoch == other.epoch && one.case == other.case && one.provenance.machine() == other.provenance.machine()

@@ -24,7 +24,6 @@ fn forms(document: &Document) -> [String; 2] {
     [page(document), super::files::markdown(document)]
 }
 
-/// A scene name that contains HTML.
 const EVIL: &str = "<script>alert(\"&'1'\")</script>";
 
 #[test]
@@ -36,10 +35,9 @@ fn what_users_name_is_text_in_every_form() {
     let files = files(&document, &runs);
     let (_, markdown) = files.iter().find(|(path, _)| path == "report.md").unwrap();
     assert!(!String::from_utf8(markdown.clone()).unwrap().replace("\\<", "").contains("<script>"));
-    // The name of a scene adds no folder to a path.
     assert!(files.iter().all(|(path, _)| !path.contains("..") && !path.contains(['<', '"', '&'])), "{files:?}");
 
-    // The data of an inspector cannot end its script element.
+    // The data of an inspector must not end its script element.
     let json = page.split("<script type=\"application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
     let data: serde_json::Value = serde_json::from_str(json).unwrap();
     assert_eq!(data["command"], format!("sahara validate {EVIL} --ray"));
@@ -70,7 +68,6 @@ fn every_figure_has_a_name_of_its_own_a_caption_and_words_for_those_who_do_not_s
     assert!(pictures > 0 && pictures == page.matches("<img src=\"data:image/png;base64,").count());
     let charts = figures.iter().filter(|figure| matches!(figure.art, Art::Chart(_)));
     assert_eq!(page.matches("aria-label=\"A picture\"").count(), charts.count());
-    // A section prints its command once, without the folder of the program. Page and Markdown have the folded block.
     assert_eq!(page.matches("<code>sahara study compare --dir runs</code>").count(), 1);
     assert!(markdown.contains("```console\nsahara study compare --dir runs\n```"));
     assert!(page.contains("<summary>More</summary>") && markdown.contains("**More**"));
@@ -94,7 +91,7 @@ fn numbers_stand_to_the_right_and_sort_by_their_value() {
 fn the_answer_goes_by_what_is_measured() {
     const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
     const SAH: &str = "Would a SAH tree have been much faster on the hard scenes?";
-    // Studies with scenes; expected title, verdict, count of numbers, parts of sentences, count of parts in a bar.
+    // Studies and scenes; title; verdict; count of numbers; parts of the sentences; count of parts in a bar.
     type Case<'a> = (&'a [(&'a str, &'a [&'a str])], &'a str, &'a str, usize, &'a [&'a str], usize);
     let tally = "0 of 24 confirmed, 1 refuted, 0 undecided, 23 not measured";
     let own = "Of all structures sah-kd is the fastest.";
@@ -133,7 +130,6 @@ fn the_answer_goes_by_what_is_measured() {
             _ => panic!("the answer has no bars"),
         });
         assert_eq!(found, parts, "{studies:?}");
-        // No full stop follows a question mark. Missing measurements have a command.
         let missing: Vec<&str> = document.missing().iter().map(|missing| missing.command.as_str()).collect();
         assert_eq!(missing.len(), 3 - studies.len());
         for form in forms(&document) {
@@ -179,7 +175,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     let again: Files = journal("compare", &["Cube"], &new);
     let again = again.into_iter().map(|(name, text)| (name, String::from_utf8(text).unwrap().replace("8000", "8001")));
     let again: Files = again.map(|(name, text)| (name, text.into_bytes())).collect();
-    // Files added to a journal of three scenes; expected shown scenes, hidden scenes, and part of the only note.
+    // Files added to a journal of three scenes; shown scenes; hidden scenes; part of the only note.
     type Case<'a> = (Files, &'a [&'a str], &'a [&'a str], &'a str);
     let cases: [Case; 6] = [
         (export("compare", &three, &old), &three, &[], ""),
@@ -191,7 +187,6 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     ];
     for (beside, shown, others, note) in cases {
         let [one, other] = [&journal("compare", &three, &old), &beside].map(|files| folder(files));
-        // The order of the arguments does not matter.
         for order in [[&one, &other], [&other, &one]] {
             let runs = Runs::read(&order.map(|folder| folder.path().to_path_buf()), &STUDIES).unwrap();
             let run = runs.of("compare").unwrap();

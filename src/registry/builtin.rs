@@ -11,9 +11,8 @@ use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumbo
 use crate::validate::HasReference;
 
 impl Registry {
-    /// Our structures, obvhs, the peers whose features are enabled, and the generator `icosphere`.
     pub fn builtin() -> Self {
-        // `Exact` is added first: the default triangle test of a structure is the first one added under its name.
+        // `Exact` comes first: the first triangle test under a name is the default.
         let ours = Self::empty()
             .over::<Exact>()
             .over::<MollerTrumbore>()
@@ -35,7 +34,7 @@ impl Registry {
         all
     }
 
-    /// Adds brute force over the triangle test `T`. It is the reference for all structures over `T`.
+    /// Brute force over `T` is the reference for all structures over `T`.
     fn brute_force<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
@@ -43,7 +42,6 @@ impl Registry {
         self.offering::<BruteForce<T>>("brute-force", BruteForceConfig::default())
     }
 
-    /// Adds our structures over the triangle test `T`.
     fn over<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
@@ -59,8 +57,6 @@ impl Registry {
             .offering::<Bvh8<T>>("sah-bvh", Bvh8Config::new(Partition::Objects))
     }
 
-    /// Adds the peers whose features are enabled. The default triangle test of a peer is its own; some peers also
-    /// support tests of this crate.
     // If no feature is enabled, this function only returns `this`.
     #[allow(clippy::let_and_return)]
     fn with_peers(self) -> Self {

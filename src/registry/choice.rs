@@ -19,7 +19,6 @@ pub struct Choice {
     pub label: String,
 }
 
-/// The reason why a choice of structure is rejected.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChoiceError {
     #[error("there is no structure {name:?}{suggestion}; the structures are: {known}")]
@@ -42,24 +41,23 @@ pub enum ChoiceError {
 const REMOVED: [(&str, &str, &str); 1] =
     [("batch", "interleaved", "batch=packets, which interleaves the rays outside packets")];
 
-/// The entry name of all runners (external programs). The configuration of a runner contains its command.
+/// The entry name of all runners (external programs).
 pub const RUNNER: &str = "runner";
 
+/// The label suffix of programs that measure their own times.
 const OWN_CLOCK: &str = " (own clock)";
 
-/// The label without the suffix ` (own clock)`, which all labels of runners have.
 pub fn plain_name(label: &str) -> &str {
     label.strip_suffix(OWN_CLOCK).unwrap_or(label)
 }
 
-/// Whether `name` equals `label`. Letter case and the suffix ` (own clock)` are ignored.
 pub fn is_named(label: &str, name: &str) -> bool {
     plain_name(label).eq_ignore_ascii_case(plain_name(name))
 }
 
 impl Choice {
-    /// `entry` with its default configuration, in which `overrides` (key, value) replaces some values. If `name_test`,
-    /// the label includes the triangle test. Callers set it if the name without a test selects another entry.
+    /// `overrides` are pairs of key and value. `name_test` adds the triangle test to the label. Callers set `name_test`
+    /// if the name without a test selects another entry.
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");
@@ -91,31 +89,24 @@ impl Choice {
         let choice = Self { entry: entry.clone(), config, label };
         match choice.build(&Arc::new(empty())) {
             Err(BuildError::Config(reason)) => Err(ChoiceError::Config { name: entry.name.clone(), reason }),
-            // This build over the empty mesh only checks the configuration: ignore other errors.
+            // The build over the empty mesh only checks the configuration. Other errors are ignored.
             _ => Ok(choice),
         }
     }
 
-    /// Builds the structure over `mesh`.
-    ///
-    /// # Errors
-    /// See [`BuildError`].
     pub fn build(&self, mesh: &Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> {
         (self.entry.build)(mesh, &self.config)
     }
 
-    /// The structure as an argument for the functions of [`crate::validate::conformance`].
     pub fn subject(&self) -> Subject {
         let own = self.clone();
         Subject::new(&self.label, self.triangle_test(), move |mesh| own.build(mesh))
     }
 
-    /// The triangle test that decides this structure's hits.
     pub fn triangle_test(&self) -> &'static str {
         self.entry.triangle_test
     }
 
-    /// The structure that `program` implements. The label states that the program measures its own times.
     pub fn of_program(program: Program) -> Self {
         let label = program.name() + OWN_CLOCK;
         let config = json!({ "command": program.command(), "build": program.build_id(), "clock": "own" });
@@ -136,7 +127,6 @@ impl Choice {
         Self { entry, config, label }
     }
 
-    /// The command line of a runner; `None` for other structures.
     pub fn command(&self) -> Option<&str> {
         (self.entry.name == RUNNER).then(|| self.config["command"].as_str())?
     }

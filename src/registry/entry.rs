@@ -10,29 +10,25 @@ use crate::geometry::Mesh;
 pub struct Entry {
     /// The name on the command line. Entries that differ only in the triangle test have the same name.
     pub name: String,
-    /// [`Accel::TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST).
     pub triangle_test: &'static str,
-    /// [`Accel::OBSERVED`](crate::accel::Accel::OBSERVED).
     pub observed: Observed,
     /// [`Accel::CONVENTIONS`](crate::accel::Accel::CONVENTIONS).
     pub conventions: &'static [&'static str],
-    /// [`Accel::CAPABILITIES`](crate::accel::Accel::CAPABILITIES).
     pub capabilities: Capabilities,
-    /// Whether this crate registers the structure. Obvhs and the peers are built in; structures of users are not.
+    /// Whether this crate registers the structure.
     pub is_builtin: bool,
     /// The default configuration: a JSON object with one value per key.
     pub config: Value,
-    /// Checks that a configuration can be parsed. It does not check whether its values contradict each other.
+    /// Checks that a configuration can be parsed. Contradictions between values are not detected.
     pub(super) read: fn(&Value) -> Result<(), String>,
     pub(super) build: Build,
 }
 
 pub(super) type BuildResult = Result<Box<dyn DynAccel>, BuildError>;
-/// Builds a structure over a mesh from its configuration, a JSON object.
 pub(super) type Build = Arc<dyn Fn(&Arc<Mesh>, &Value) -> BuildResult + Send + Sync>;
 
 impl Entry {
-    /// The reason why the structure cannot run on this system; `None` if it can.
+    /// The reason why the structure cannot run on this system.
     pub fn absence(&self) -> Option<String> {
         match (self.build)(&Arc::new(empty()), &self.config) {
             Err(BuildError::Unavailable(sentence)) => Some(sentence),

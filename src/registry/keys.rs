@@ -4,7 +4,6 @@ use serde_json::Value;
 
 use super::Entry;
 
-/// A key of the configuration of a structure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
     pub name: String,
@@ -15,7 +14,7 @@ pub struct Key {
     pub default: String,
 }
 
-/// Keys of the built-in structures and their meanings. A key has the same meaning in all built-in structures.
+/// A key has the same meaning in all built-in structures.
 const MEANINGS: [(&str, &str); 24] = [
     ("plane", "split plane of a node"),
     ("axis", "split axis of a median"),
@@ -68,7 +67,6 @@ const MEANINGS: [(&str, &str); 24] = [
 ];
 
 impl Entry {
-    /// The keys, in the order of the configuration.
     pub fn keys(&self) -> Vec<Key> {
         // In a structure of another crate, a key of `MEANINGS` may have another meaning.
         let meanings = if self.is_builtin { &MEANINGS[..] } else { &[] };
@@ -82,7 +80,7 @@ impl Entry {
         self.config.as_object().into_iter().flatten().map(key).collect()
     }
 
-    /// The accepted values of a key. If they are words, the parser lists them in its error for the unknown word `?`.
+    /// For words, the parser lists the accepted values in its error for the unknown word `?`.
     pub(super) fn values(&self, key: &str) -> String {
         match &self.config[key] {
             Value::Bool(_) => "true, false".into(),
@@ -98,7 +96,7 @@ impl Entry {
     }
 }
 
-/// A value as a user types it. An `f32`, which JSON stores as an `f64`, is written with the digits of the `f32`.
+/// JSON stores an `f32` as an `f64`. The text has the shorter digits of the `f32`.
 fn shown(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),

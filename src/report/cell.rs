@@ -1,18 +1,16 @@
-//! One cell of a table: a value and its emphasis. Renderers write it as text.
+//! One cell of a table: a value and its emphasis.
 
 use super::number::{bytes, count, duration, figures};
 use super::words::written;
 use crate::measure::Estimate;
 
-/// The value of a cell. An unknown value is [`Value::Empty`], never 0.
+/// An unknown value is [`Value::Empty`], never 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Value {
     #[default]
     Empty,
     Text(String),
-    /// A whole number: `130,858`.
     Count(u64),
-    /// A difference: `+2`, `-3`, `0`.
     Difference(i64),
     Number(f64, Format),
     Estimate(Estimate, Format),
@@ -27,19 +25,17 @@ pub enum Value {
 pub enum Format {
     /// Three significant digits.
     Figures,
-    /// A fixed number of decimals.
     Decimals(u8),
-    /// A fraction in percent, three significant digits: `50.0 %`. Zero is written `0`.
+    /// A fraction, written in percent: `50.0 %`.
     Percent,
-    /// A relative change in percent, one decimal: `+1.5%`.
+    /// A relative change, written in percent: `+1.5%`.
     Change,
-    /// Nanoseconds as `ns`, `us`, `ms` or `s`.
+    /// Nanoseconds, written as `ns`, `us`, `ms` or `s`.
     Duration,
-    /// Bytes as `B`, `KiB`, `MiB` or `GiB`.
     Bytes,
 }
 
-/// The emphasis of a cell; renderers show it by colour or bold text.
+/// The emphasis of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
     #[default]
@@ -48,16 +44,14 @@ pub enum Tone {
     Wrong,
 }
 
-/// A value, its emphasis, and a note beside it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cell {
     pub value: Value,
     pub tone: Tone,
-    /// Whether the value was measured on a subset of the rays. If so, `~` precedes it.
+    /// Whether the value was measured on a subset of the rays.
     pub sampled: bool,
-    /// Whether the value is not distinguishable from 1. If so, `=` follows it.
+    /// Whether the value is not distinguishable from 1.
     pub equal: bool,
-    /// Printed after the value, in parentheses; may be empty.
     pub note: String,
 }
 
@@ -81,7 +75,6 @@ impl From<Value> for Cell {
     }
 }
 
-/// Implements `From<type> for Cell`. Empty text is an unknown value; an `f64` has three significant digits.
 macro_rules! cell_from {
     ($($value:ident: $type:ty => $of:expr;)*) => {
         $(impl From<$type> for Cell {
@@ -103,7 +96,6 @@ cell_from! {
     yes: bool => if yes { "true" } else { "false" };
 }
 
-/// `None` becomes an empty cell.
 impl<T: Into<Cell>> From<Option<T>> for Cell {
     fn from(value: Option<T>) -> Self {
         value.map_or(Self::default(), Into::into)
@@ -131,7 +123,7 @@ impl Cell {
         Self::number(bytes as f64, Format::Bytes)
     }
 
-    /// A ratio of speeds. It is marked as `equal` if its interval contains 1, except if it is exactly 1.
+    /// A ratio of speeds. An exact 1 is not marked as `equal`.
     pub fn ratio(x: Estimate) -> Self {
         Self { equal: x != Estimate::exact(1.0) && x.holds(1.0), ..x.into() }
     }
@@ -140,7 +132,6 @@ impl Cell {
         Self { tone, ..self }
     }
 
-    /// The same cell, marked as measured on a subset of the rays if `sampled`.
     pub fn sampled(self, sampled: bool) -> Self {
         Self { sampled, ..self }
     }
@@ -153,7 +144,6 @@ impl Cell {
         self.value == Value::Empty
     }
 
-    /// Whether the cell contains words, which are aligned to the left.
     pub fn is_text(&self) -> bool {
         matches!(self.value, Value::Text(_))
     }
@@ -174,7 +164,6 @@ impl Cell {
         format!("{before}{value}{equal}{note}")
     }
 
-    /// The key for sorting the rows of a table; `None` for text and empty cells.
     pub fn sort_key(&self) -> Option<f64> {
         match self.value {
             Value::Empty | Value::Text(_) => None,

@@ -1,12 +1,11 @@
-//! Tables as CSV: one number per field, without units; the ends of an interval have separate columns.
+//! Tables as CSV: one number per field, without units.
 
 use super::{Cell, Table, Value};
 
-/// Suffixes of the field names of a column: the value, the two ends of its interval, the number of checked rays.
+/// Suffixes of the fields of a column: value, low end, high end, number of checked rays.
 const ENDINGS: [&str; 4] = ["", "_low", "_high", "_of"];
 
-/// The table as CSV with a header. A column `x` with intervals becomes `x`, `x_low` and `x_high`; a column `x`
-/// with errors becomes `x` and `x_of`. An unknown value becomes an empty field.
+/// A column has fields for an interval or errors only if a cell needs them.
 pub fn table(table: &Table) -> Vec<u8> {
     let fields_of = |i: usize| {
         let has = |is: fn(&Value) -> bool| table.rows.iter().any(|row| is(&row[i].value));

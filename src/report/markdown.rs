@@ -1,9 +1,9 @@
-//! Tables and reports as GitHub's Markdown, which pandoc can convert for a paper.
+//! Tables and reports as GitHub's Markdown.
 
 use super::words::ended;
 use super::{Art, Block, Figure, Report, Table, Tone, wrapped};
 
-/// The output of `--export-markdown`: a report, and below it the lines of `foot`.
+/// The output of `--export-markdown`.
 pub fn report(report: &Report, foot: &[String]) -> String {
     let mut text = String::new();
     blocks(&report.blocks, &mut text);
@@ -44,7 +44,6 @@ fn figure(figure: &Figure, text: &mut String) {
     *text += &format!("\n{}\n\n", prose(&figure.caption));
 }
 
-/// A table with its title above and its notes below.
 pub fn table(table: &Table) -> String {
     let heading = if table.title.is_empty() { String::new() } else { format!("### {}\n\n", escaped(&table.title)) };
     let notes: String = table.notes.iter().map(|note| format!("\n{}\n", escaped(note))).collect();
@@ -64,13 +63,12 @@ pub fn table(table: &Table) -> String {
     text + &notes
 }
 
-/// Escapes characters that Markdown would read as a table or as markup.
 pub fn escaped(text: &str) -> String {
     let marked = |c: char| "|*_`<>\\~".contains(c).then_some('\\').into_iter().chain([c]);
     text.chars().flat_map(marked).collect()
 }
 
-/// A sentence as Markdown: text between backticks is code, and `**` makes text strong. Other markup is escaped.
+/// Keeps code spans and `**`, and escapes all other markup.
 pub fn prose(text: &str) -> String {
     let pieces = text.split('`').collect::<Vec<_>>();
     if pieces.len().is_multiple_of(2) {

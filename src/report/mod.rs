@@ -1,5 +1,5 @@
-//! The result of a study as plain data ([`Report`]), and the renderers for a terminal, Markdown and CSV.
-//! `crate::page` renders it as HTML.
+//! The result of a study as data, and its renderers for terminal, Markdown and CSV. `crate::page` renders the result
+//! as HTML.
 
 mod cell;
 pub mod csv;

@@ -2,7 +2,8 @@
 
 pub use crate::plural::{count, plural};
 
-/// Three significant digits, and all digits before the point if there are more: `0.00123`, `12.3`, `1234`, `4.96e-9`.
+/// Three significant digits, or all digits before the point if these are more: `0.00123`, `12.3`, `1234`. Scientific
+/// notation below 1e-3 and from 1e7.
 pub fn figures(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
@@ -17,7 +18,6 @@ pub fn figures(x: f64) -> String {
     }
 }
 
-/// Nanoseconds as `ns`, `us`, `ms` or `s`.
 pub fn duration(ns: f64) -> String {
     let (scale, unit) = match ns {
         ns if ns < 999.5 => (1.0, "ns"),

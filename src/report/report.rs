@@ -5,34 +5,31 @@ use super::{Cell, Table, Tone};
 use crate::measure::Estimate;
 use crate::names::named_enum;
 
-/// The result of a study. Renderers write it as text, as a web page, as Markdown and as CSV.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// The findings, most important first.
+    /// Findings, most important first.
     pub findings: Vec<Finding>,
-    /// Tables, figures and texts in order. The terminal prints only the tables and notes that are not folded.
+    /// The terminal prints only the tables and notes that are not folded.
     pub blocks: Vec<Block>,
-    /// The verdicts on claims, the measurable parts of predictions that were written before the measurement.
+    /// Verdicts on claims that were written before the measurement.
     pub verdicts: Vec<ClaimVerdict>,
     /// Structures without times or with wrong hits. They decide the exit status.
     pub failures: Vec<Failure>,
     /// Conditions that disturbed the run, each with a remedy.
     pub warnings: Vec<String>,
-    /// The table of `--export-csv`: one row per measurement; empty without measurements.
+    /// The table of `--export-csv`, with one row per measurement.
     pub data: Table,
 }
 
-/// A sentence about the data, and the number in this sentence. The page, `papers/RESULTS.md` and README print the
-/// sentence. Claims and README refer to the finding by its key.
+/// A sentence about the data, and the number in this sentence. Claims and README refer to a finding by its key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
     /// Letters, digits and hyphens; unique among the findings of a study.
     pub key: String,
-    /// Ends with a full stop. Empty if the finding has only a number (for a claim) or only a name.
+    /// Ends with a full stop. Empty if the finding is only a number or only a name.
     pub sentence: String,
-    /// The number in the sentence; `None` if the sentence has no number.
     pub value: Option<Estimate>,
-    /// A name that answers the question at the top of the page, such as the label of the fastest structure.
+    /// A name, such as the label of the fastest structure.
     pub name: Option<String>,
     /// Whether the terminal shows the sentence only with `--verbose`.
     pub is_detail: bool,
@@ -45,13 +42,11 @@ pub enum Block {
     Note(String),
     Table(Table),
     Figure(Box<Figure>),
-    /// A result that no run has measured, and the command that measures it.
     Missing(Missing),
-    /// A heading, and the blocks below it. The page hides the blocks until the reader unfolds them.
+    /// A heading, and blocks that the page hides until the reader unfolds them.
     Fold(String, Vec<Block>),
 }
 
-/// The verdict on one claim.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClaimVerdict {
     /// The number of the prediction that contains the claim, from 1.
@@ -59,7 +54,7 @@ pub struct ClaimVerdict {
     pub claim: String,
     /// The expected range, such as `at least 20`.
     pub expected: String,
-    /// The measured value, with its interval corrected for the number of claims (Bonferroni); `None` if not measured.
+    /// The interval is corrected for the number of claims (Bonferroni).
     pub value: Option<Estimate>,
     pub outcome: Outcome,
 }
@@ -77,26 +72,22 @@ named_enum! {
     }
 }
 
-/// A structure without times or with wrong hits, and the reason.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Failure {
     pub structure: String,
-    /// The sentence to print below the tables; empty if a table already shows the failure.
+    /// Printed below the tables; empty if a table already shows the failure.
     pub sentence: String,
     /// Whether the structure has no times on any workload.
     pub refused: bool,
-    /// Whether the failure is that the structure returned wrong hits.
+    /// Whether the structure returned wrong hits.
     pub wrong: bool,
 }
 
-/// A figure with its caption, alternative text and the numbers behind it.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// The id, also the stem of its file names: letters, digits and hyphens, unique among the figures.
+    /// Letters, digits and hyphens; unique among the figures. File names begin with the id.
     pub id: String,
-    /// The content of the figure, and how to read it.
     pub caption: String,
-    /// Alternative text for readers who cannot see the figure.
     pub alt: String,
     pub art: Art,
     /// The numbers in the figure; a table without columns if the figure has no numbers.
@@ -110,13 +101,13 @@ pub enum Art {
     Overlay(Overlay),
 }
 
-/// Pictures of the same size and scale. The page shows them side by side and overlays any two.
+/// Pictures of equal size and scale. The page overlays any two.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlay {
     pub heading: String,
     pub pictures: Vec<Picture>,
     pub colours: Colours,
-    /// Data with which the reader of the page inspects single pixels.
+    /// Data for the inspection of single pixels on the page.
     pub inspector: serde_json::Value,
 }
 
@@ -152,12 +143,10 @@ pub struct Missing {
 }
 
 impl Finding {
-    /// A finding without a number.
     pub fn new(key: impl Into<String>, sentence: impl Into<String>) -> Self {
         Self { key: key.into(), sentence: sentence.into(), value: None, name: None, is_detail: false }
     }
 
-    /// A finding without a sentence: a name that answers the question at the top of the page.
     pub fn named(key: impl Into<String>, name: impl Into<String>) -> Self {
         Self { name: Some(name.into()), ..Self::new(key, "") }
     }
@@ -170,7 +159,6 @@ impl Finding {
         Self { value: Some(value), ..self }
     }
 
-    /// The same finding; the terminal shows it only with `--verbose`.
     pub fn detail(self) -> Self {
         Self { is_detail: true, ..self }
     }
@@ -191,7 +179,6 @@ impl Report {
         shown.map(|finding| finding.sentence.as_str())
     }
 
-    /// The verdicts as a table; `None` without verdicts.
     pub fn verdict_table(&self) -> Option<Table> {
         let table = Table::of(
             "Claims written before the measurement",
@@ -206,12 +193,12 @@ impl Report {
         (!self.verdicts.is_empty()).then_some(table)
     }
 
-    /// Figures that are not folded, in their order.
+    /// Figures that are not folded.
     pub fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.blocks.iter().filter_map(|block| if let Block::Figure(figure) = block { Some(&**figure) } else { None })
     }
 
-    /// Tables that are not folded, in their order.
+    /// Tables that are not folded.
     pub fn tables(&self) -> impl Iterator<Item = &Table> {
         self.blocks.iter().filter_map(|block| if let Block::Table(table) = block { Some(table) } else { None })
     }
@@ -232,7 +219,6 @@ impl Figure {
         if let Art::Chart(chart) = &self.art { Some(chart) } else { None }
     }
 
-    /// The pictures of the figure; empty for a chart.
     pub fn pictures(&self) -> &[Picture] {
         match &self.art {
             Art::Chart(_) => &[],

@@ -1,32 +1,29 @@
-//! A table: plain data. The renderers are [`terminal`](super::terminal), [`markdown`](super::markdown),
-//! [`csv`](super::csv) and the page.
+//! A table as plain data.
 
 use super::words::ONE_EPOCH;
 use super::{Cell, Value};
 
-/// A table with a title above and notes below.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    /// One line.
     pub title: String,
     pub columns: Vec<String>,
     /// Each row has one cell per column.
     pub rows: Vec<Vec<Cell>>,
     /// One sentence each.
     pub notes: Vec<String>,
-    /// Names of columns that the terminal shows only with `--verbose`; exports have all columns.
+    /// Columns that the terminal shows only with `--verbose`. Exports have all columns.
     pub details: Vec<String>,
-    /// Whether the table is about only one scene. A run prints such a table as soon as its scene is measured.
+    /// Whether the table is about one scene. A run prints the table as soon as this scene is measured.
     pub of_scene: bool,
 }
 
-/// The heading of a column, and the function that makes its cell for an item.
+/// The heading of a column, and the function that makes its cells.
 pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
 
 impl Table {
     /// Adds a note about estimates without an interval, if the table has any.
     #[must_use]
-    pub fn explained(mut self) -> Self {
+    pub fn with_interval_note(mut self) -> Self {
         let has_no_interval = |cell: &Cell| matches!(cell.value, Value::Estimate(x, _) if x.interval.is_none());
         if self.rows.iter().flatten().any(has_no_interval) {
             self.notes.push(format!("{ONE_EPOCH}: no interval; use --epochs 2 or more"));
@@ -43,7 +40,6 @@ impl Table {
         Self { title: title.into(), columns, rows: rows.into_iter().collect(), ..Self::default() }
     }
 
-    /// A table with one row per item, without notes. The function of each column makes its cells.
     pub fn of<T>(title: impl Into<String>, items: impl IntoIterator<Item = T>, columns: &[Column<T>]) -> Self {
         let row = |item: T| columns.iter().map(|(_, of)| of(&item)).collect();
         Self::new(title, columns.iter().map(|(name, _)| *name), items.into_iter().map(row))
@@ -53,18 +49,15 @@ impl Table {
         Self::new(title, columns, rows.into_iter().map(|row| row.map(Cell::from).into()))
     }
 
-    /// Adds a column with one cell per row.
     pub fn push_column(&mut self, name: impl Into<String>, cells: impl IntoIterator<Item = Cell>) {
         self.columns.push(name.into());
         self.rows.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
     }
 
-    /// The same table, in which the columns `names` are the [`details`](Self::details).
     pub fn with_details<'a>(self, names: impl IntoIterator<Item = &'a str>) -> Self {
         Self { details: names.into_iter().map(String::from).collect(), ..self }
     }
 
-    /// The same table without the columns in [`details`](Self::details).
     pub fn without_details(self) -> Self {
         let details = self.details.clone();
         self.without_columns(&details.iter().map(String::as_str).collect::<Vec<_>>())
@@ -74,25 +67,22 @@ impl Table {
         Self { notes: notes.into_iter().map(Into::into).collect(), ..self }
     }
 
-    /// The same table, marked as about only one scene.
     pub fn of_one_scene(self) -> Self {
         Self { of_scene: true, ..self }
     }
 
-    /// The same table without empty columns. The first column stays; a table without rows keeps all columns.
     pub fn without_empty_columns(self) -> Self {
         let says = |i: usize| self.rows.is_empty() || self.rows.iter().any(|row| !row[i].is_empty());
         let kept = (0..self.columns.len()).map(says).collect();
         self.with_columns(kept)
     }
 
-    /// The same table without the columns of these names; the first column stays.
     pub fn without_columns(self, names: &[&str]) -> Self {
         let kept = self.columns.iter().map(|column| !names.contains(&column.as_str())).collect();
         self.with_columns(kept)
     }
 
-    /// The same table with only the columns that are `kept`. The first column always stays.
+    /// The first column always stays.
     fn with_columns(self, mut kept: Vec<bool>) -> Self {
         kept.iter_mut().take(1).for_each(|first| *first = true);
         let columns = only(self.columns, &kept);
@@ -100,13 +90,12 @@ impl Table {
         Self { columns, rows, ..self }
     }
 
-    /// Whether the column is aligned to the left: the first column, and columns with only text.
+    /// Whether the column is aligned to the left.
     pub fn is_words(&self, column: usize) -> bool {
         let mut cells = self.rows.iter().map(|row| &row[column]).filter(|cell| !cell.is_empty()).peekable();
         column == 0 || cells.peek().is_some() && cells.all(Cell::is_text)
     }
 
-    /// Whether a cell outside the first column is not empty.
     pub fn has_values(&self) -> bool {
         self.rows.iter().flat_map(|row| row.iter().skip(1)).any(|cell| !cell.is_empty())
     }

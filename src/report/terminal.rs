@@ -5,10 +5,9 @@ use comfy_table::{Attribute, Cell as GridCell, CellAlignment, Color, ContentArra
 use super::{Block, Cell, Report, Table, Tone, wrapped};
 use crate::escaped::Escaped as _;
 
-/// The properties of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Screen {
-    /// Characters per line; `None` for no limit, if the output is not a terminal.
+    /// Characters per line; `None` is unlimited.
     pub width: Option<u16>,
     pub colour: bool,
 }
@@ -17,19 +16,16 @@ pub struct Screen {
 const INDENT: usize = 2;
 const PADDING: usize = 2;
 
-/// The tables except tables of a single scene, then the table of claims.
 pub fn summary_tables(report: &Report) -> Vec<Table> {
     let shared = report.tables().filter(|table| !table.of_scene).cloned();
     shared.chain(report.verdict_table()).collect()
 }
 
-/// The text of a [`Block::Note`]; `None` for other blocks.
 pub fn note(block: &Block) -> Option<String> {
     if let Block::Note(words) = block { Some(words.clone()) } else { None }
 }
 
-/// The table as text, not wider than the screen. Columns that do not fit are printed below, again with the first column
-/// on their left.
+/// Columns that do not fit are printed below, next to a copy of the first column.
 pub fn table(table: &Table, screen: Screen) -> String {
     let table = table.clone().without_empty_columns();
     let title = table.title.escaped();
@@ -44,11 +40,10 @@ pub fn table(table: &Table, screen: Screen) -> String {
     text
 }
 
-/// Replaces the name of a structure if the row above shows the same name.
+/// Replaces the name of a structure if the row above shows the name.
 const ABOVE: char = '…';
 
-/// Shortens the labels in the first column, to leave space for numbers. If a label begins with the whole label of the
-/// row above, followed by keys, `…` replaces this beginning.
+/// A label `sah-kd:leaf=4` below the label `sah-kd` becomes `…:leaf=4`.
 pub fn with_short_names(mut table: Table) -> Table {
     let names: Vec<String> = table.rows.iter().map(|row| row.first().map_or(String::new(), Cell::text)).collect();
     let mut has_short = false;
@@ -64,12 +59,12 @@ pub fn with_short_names(mut table: Table) -> Table {
     table
 }
 
-/// The text of a cell, escaped because file names in it may contain control characters.
+/// The text is escaped, because file names may contain control characters.
 fn printed(cell: &Cell) -> String {
     cell.text().escaped().to_string()
 }
 
-/// Splits the columns into groups that fit side by side. Every group begins with the first column.
+/// Splits the columns into groups that fit on the screen.
 fn blocks(table: &Table, width: Option<usize>) -> Vec<Vec<usize>> {
     let widest = |i: usize| {
         let cells = table.rows.iter().map(|row| printed(&row[i]).chars().count());
@@ -158,7 +153,6 @@ mod tests {
         for width in [26, 40, 80] {
             let text = table(&wide, Screen { width: Some(width), colour: false });
             assert!(text.lines().all(|line| line.chars().count() <= width.into()), "{text}");
-            // All cells are printed, and none is split.
             let cells = ["structure", "3/9 wrong", "123,456", "three", "1,234"];
             assert!(cells.iter().all(|cell| text.contains(cell)), "{text}");
         }

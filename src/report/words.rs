@@ -3,40 +3,39 @@
 use super::number::figures;
 use crate::measure::{Estimate, Interval};
 
-/// The name of a scene in keys, tables and figures. It marks a stand-in, a generated mesh that replaces a real one.
+/// A stand-in is a generated mesh that replaces a real one.
 pub fn scene_name(scene: &str, stand_in: bool) -> String {
     if stand_in { format!("{scene} (stand-in)") } else { scene.into() }
 }
 
-/// An estimate as text: `20.6 [19.2, 21.4]`, `20.6` if it is exact, or `20.6 (one epoch)` without an interval.
+/// `20.6 [19.2, 21.4]`, `20.6` if the estimate is exact, or `20.6 (one epoch)` without an interval.
 pub fn interval(x: Estimate) -> String {
     written(x, figures)
 }
 
-/// Like [`interval`], with the number format `number`.
 pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
     match x.interval {
         Some(interval) if interval.low == interval.high => number(x.estimate),
-        _ => format!("{} {}", number(x.estimate), ends(x, number)),
+        _ => format!("{} {}", number(x.estimate), interval_text(x, number)),
     }
 }
 
-/// The interval of an estimate as text: `[19.2, 21.4]`, or `(one epoch)` without an interval.
-pub fn ends(x: Estimate, number: impl Fn(f64) -> String) -> String {
+/// `[19.2, 21.4]`, or `(one epoch)` without an interval.
+pub fn interval_text(x: Estimate, number: impl Fn(f64) -> String) -> String {
     match x.interval {
         Some(Interval { low, high, .. }) => format!("[{}, {}]", number(low), number(high)),
         None => ONE_EPOCH.into(),
     }
 }
 
-/// Adds a full stop, unless the text ends with a full stop, question mark or exclamation mark.
+/// Adds a full stop if the text has no punctuation at its end.
 pub fn ended(words: &str) -> String {
     if words.ends_with(['.', '?', '!']) { words.into() } else { format!("{words}.") }
 }
 
 pub const ONE_EPOCH: &str = "(one epoch)";
 
-/// The words of `text` in lines of at most `width` characters. A longer word is not split.
+/// `width` is in characters. Longer words are not split.
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = vec![];
     for word in text.split_whitespace() {
@@ -51,7 +50,7 @@ pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Joins words: `A`, `A and B`, `A, B and C`.
+/// `A`, `A and B`, or `A, B and C`.
 pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
     let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
     match words.split_last() {
@@ -61,14 +60,14 @@ pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
     }
 }
 
-/// Turns any text into lower-case letters, digits and hyphens. Different texts may give the same slug.
+/// Lower-case letters, digits and hyphens. Different texts may give the same slug.
 pub fn slug(text: &str) -> String {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let slug = words.collect::<Vec<_>>().join("-").to_ascii_lowercase();
     if slug.is_empty() { "x".into() } else { slug }
 }
 
-/// The name of a structure: its label without the keys.
+/// The label of a structure without its keys.
 pub fn bare(label: &str) -> &str {
     label.split(':').next().unwrap_or(label)
 }
@@ -82,7 +81,6 @@ pub fn each_once<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
     each_once_by(items, T::eq)
 }
 
-/// Like [`each_once`], with `same` as the equality.
 pub fn each_once_by<T>(items: impl IntoIterator<Item = T>, same: impl Fn(&T, &T) -> bool) -> Vec<T> {
     let mut found: Vec<T> = vec![];
     for item in items {
@@ -93,7 +91,7 @@ pub fn each_once_by<T>(items: impl IntoIterator<Item = T>, same: impl Fn(&T, &T)
     found
 }
 
-/// The command line without the folder of the program, which differs on other machines.
+/// Removes the folder of the program, which differs between machines.
 pub fn command_line(command: &str) -> String {
     let (program, rest) = command.split_once(' ').unwrap_or((command, ""));
     let program = program.trim_matches('\'').rsplit(['/', '\\']).next().unwrap_or(program);
@@ -115,7 +113,7 @@ mod tests {
         assert_eq!(interval(Estimate::between(-0.5, -0.75, 0.25)), "-0.500 [-0.750, 0.250]");
         assert_eq!(interval(Estimate::exact(2.0)), "2.00");
         assert_eq!(interval(Estimate::alone(2.0)), "2.00 (one epoch)");
-        let table = |x: Estimate| Table::new("", [""], [vec![x.into()]]).explained().notes;
+        let table = |x: Estimate| Table::new("", [""], [vec![x.into()]]).with_interval_note().notes;
         assert!(table(Estimate::exact(2.0)).is_empty());
         assert!(table(Estimate::alone(2.0))[0].contains("no interval"));
         assert_eq!(scene_name("Dragon", true), "Dragon (stand-in)");

@@ -35,7 +35,6 @@ pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u
 pub struct Limit(pub Option<Seconds>);
 
 impl Limit {
-    /// Reads seconds, or `none`.
     pub fn parse(text: &str) -> Result<Self, String> {
         if text == "none" { Ok(Self(None)) } else { text.parse().map(|seconds| Self(Some(seconds))) }
     }

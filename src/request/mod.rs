@@ -1,5 +1,5 @@
-//! The inputs that commands share: scenes, structures, rays and views. Each input exists as command-line options and as
-//! JSON for another process.
+//! The inputs that commands share: scenes, structures, rays and views. Each input exists as command-line options, and
+//! as JSON for another process.
 
 mod measuring;
 mod os_text;
@@ -16,8 +16,9 @@ pub use rays::{RaySource, Rays, WORKLOADS, WorkloadRequest, each_kind, rays_or_a
 pub use runners::{RUNNER_LIMIT, RunnerRequest, runner, runners};
 pub use scenes::{SceneRequest, Scenes, named_notes, output, scene, scene_files, scenes, stand_in, words};
 pub use structures::{
-    ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, SAH_TREE, StructureRequest, Structures, TWIN, guide, is_external,
-    is_large, is_obvhs, known_defect, known_tests, left_out, specs, structures, structures_at, with_twin,
+    ALL, BRUTE_FORCE, QUALITIES, REPORT_TREE, SAH_TREE, StructureRequest, Structures, TWIN, brute_force_note,
+    is_external, is_large, is_obvhs, known_defect, known_tests, secondary_ray_structure, specs, structures,
+    structures_at, with_twin,
 };
 pub use view::ViewArgs;
 

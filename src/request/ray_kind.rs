@@ -9,7 +9,7 @@ use crate::scene::{Scene, View};
 use crate::validate::Stratum;
 
 named_enum! {
-    /// A workload of `study accuracy`. Errors are counted per workload, because their causes differ.
+    /// A workload of `study accuracy`.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum RayKind {
@@ -25,12 +25,10 @@ named_enum! {
 }
 
 impl RayKind {
-    /// A short description of the rays.
     pub fn description(self) -> &'static str {
         self.meaning().1
     }
 
-    /// The stratum that generates the rays, and their description.
     fn meaning(self) -> (Stratum, &'static str) {
         match self {
             // The method `rays` adds the camera rays.
@@ -47,7 +45,6 @@ impl RayKind {
         }
     }
 
-    /// `count` rays of this workload in `scene`.
     pub fn rays(self, scene: &Scene, count: usize, seed: u64) -> Vec<Ray> {
         if self == Self::Offset {
             return near_enough(&scene.mesh, count, seed);
@@ -62,14 +59,14 @@ impl RayKind {
     }
 }
 
-/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away. About two of three do.
+/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away.
 fn near_enough(mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
     let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element() * 2e6);
     let mut tried = 2 * count + 64;
     loop {
         let mut rays = Stratum::FarOrigins.rays(mesh, tried, seed);
         rays.retain(|ray| (ray.origin - centre).abs().max_element() < reach);
-        // If the box has size 0, no ray is near enough: return rays from any distance.
+        // If the box has size 0, no ray is near enough. In this case, rays from any distance are returned.
         if rays.len() >= count || tried > 64 * count + 64 {
             rays.extend(Stratum::FarOrigins.rays(mesh, count.saturating_sub(rays.len()), seed));
             rays.truncate(count);

@@ -22,47 +22,43 @@ pub const WORKLOADS: [WorkloadKind; 4] =
 /// Width and height of the pictures of the source report.
 const PICTURE: [u32; 2] = [512, 512];
 
-/// The workloads of a case. `rays` is the maximum number of timed rays per workload; `None` for no maximum.
+/// `rays` is the maximum number of timed rays per workload; `None` is unlimited.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "from", rename_all = "kebab-case")]
 pub enum WorkloadRequest {
-    /// Workloads that are generated for the scene.
     Scene {
         kinds: Vec<WorkloadKind>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         rays: Option<usize>,
     },
-    /// All rays of the picture that the source report draws, 512 x 512 pixels.
+    /// All rays of the source report's picture.
     Picture,
     /// Only the primary rays of `Picture`.
     PrimaryPicture,
-    /// A file of rays.
     File {
         #[serde(with = "super::os_text")]
         path: PathBuf,
-        /// The hash of the rays in the file, see [`Workload::hash`].
+        /// [`Workload::hash`] of the rays in the file.
         hash: String,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         rays: Option<usize>,
     },
-    /// `count` rays of each of the workloads `kinds` of `study accuracy`.
+    /// Workloads of `study accuracy`, with `count` rays each.
     Hard { kinds: Vec<RayKind>, count: usize },
 }
 
 impl WorkloadRequest {
-    /// At most `rays` rays of each workload; all rays for `usize::MAX`.
+    /// `usize::MAX` represents all rays.
     pub fn of_scene(kinds: Vec<WorkloadKind>, rays: usize) -> Self {
         Self::Scene { kinds, rays: Some(rays).filter(|&rays| rays < usize::MAX) }
     }
 
-    /// Generates or reads the rays; all structures trace the same rays. Secondary rays start at the hits of `guide`.
-    /// Workloads without rays in the scene are omitted. `progress` receives the name of each generated workload. An
-    /// error if the file cannot be read, or its rays do not have the planned hash.
+    /// Secondary rays start at the hits of `tracer`. Workloads without rays in the scene are omitted.
     pub fn workloads(
         &self,
         scene: &Scene,
         seed: u64,
-        guide: &dyn DynAccel,
+        tracer: &dyn DynAccel,
         progress: &mut dyn FnMut(&str),
     ) -> anyhow::Result<Vec<Workload>> {
         let picture = Sampling { size: PICTURE, ..Sampling::of(scene) };
@@ -87,13 +83,12 @@ impl WorkloadRequest {
         let mut workloads = vec![];
         for &kind in kinds.iter().filter(|&&kind| kind != WorkloadKind::Mirror || scene.has_mirrors()) {
             progress(kind.name());
-            workloads.push(Workload::new(scene, kind, &sampling, guide));
+            workloads.push(Workload::new(scene, kind, &sampling, tracer));
         }
         workloads.retain(|workload| !workload.rays.is_empty());
         Ok(workloads)
     }
 
-    /// The maximum number of timed rays per workload.
     pub fn most_rays(&self) -> usize {
         match self {
             Self::Scene { rays, .. } | Self::File { rays, .. } => rays.unwrap_or(usize::MAX),
@@ -112,7 +107,7 @@ impl WorkloadRequest {
     }
 }
 
-/// The distinct workloads of `named`, or of `own` if `named` is empty. Repeated workloads would count twice in means.
+/// Removes repeated workloads, which would count twice in means.
 pub fn each_kind<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
     each_once(if named.is_empty() { own } else { named }.iter().copied())
 }
@@ -130,25 +125,21 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// The workloads on the command line, or `own` if there are none.
     pub fn request(&self, own: &[WorkloadKind]) -> WorkloadRequest {
         WorkloadRequest::of_scene(each_kind(&self.workload, own), self.rays)
     }
 }
 
-/// A value of `--rays`: a number of rays, `all`, or a ray file. A file with the name `100` or `all` is written `./100`
-/// or `./all`.
+/// A value of `--rays`: a number of rays, `all`, or a ray file. A file with the name `all` is written `./all`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RaySource {
-    /// The maximum number of rays; `usize::MAX` for all rays.
+    /// The maximum number of rays. `usize::MAX` represents all rays.
     Count(usize),
     File(PathBuf),
 }
 
-/// The maximum number of rays on the command line.
 const MOST: usize = 1 << 26;
 
-/// Reads a number of rays, or `all`, which becomes `usize::MAX`.
 pub fn rays_or_all(text: &str) -> Result<usize, String> {
     match text.parse() {
         _ if text == "all" => Ok(usize::MAX),
@@ -157,7 +148,6 @@ pub fn rays_or_all(text: &str) -> Result<usize, String> {
     }
 }
 
-/// Parses the value on the command line.
 impl ValueParserFactory for RaySource {
     type Parser = TryMapValueParser<OsStringValueParser, fn(OsString) -> Result<Self, String>>;
 
@@ -167,7 +157,6 @@ impl ValueParserFactory for RaySource {
 }
 
 impl RaySource {
-    /// Parses `named`. An error if it is a number outside the allowed range.
     pub fn of(named: &OsStr) -> Result<Self, String> {
         let Some(text) = named.to_str() else { return Ok(Self::File(named.into())) };
         // A number outside the range is an error, not a file name.
@@ -179,17 +168,15 @@ impl RaySource {
         }
     }
 
-    /// The file, if the rays are read from one.
     pub fn file(&self) -> Option<&Path> {
         if let Self::File(path) = self { Some(path) } else { None }
     }
 
-    /// The maximum number of rays; `usize::MAX` for a file.
     pub fn count(&self) -> usize {
         if let Self::Count(count) = self { *count } else { usize::MAX }
     }
 
-    /// The number of rays to generate, 0 for a file. An error for `all`, because any number can be generated.
+    /// The number of rays to generate; 0 for a file.
     pub fn number(&self) -> anyhow::Result<usize> {
         match self {
             Self::Count(usize::MAX) => {
@@ -201,8 +188,8 @@ impl RaySource {
     }
 }
 
-/// Reads the ray file `source` and loads its scene, which is the only one in `named`, or by default the scene that the
-/// file names. An error if the rays were recorded for another scene; `None` if `source` is a number.
+/// Reads a ray file and loads its scene. A scene in `named` takes precedence over the scene that the file names. `None`
+/// if `source` is a number.
 pub fn recorded(
     registry: &Registry,
     source: &RaySource,
@@ -214,7 +201,7 @@ pub fn recorded(
         [] if file.scene.is_empty() => {
             anyhow::bail!("{} names no scene: name one on the command line", path.escaped())
         }
-        // Accept only built-in scenes: a text in a ray file must not be used as the path of another file.
+        // Accept only built-in scenes: a ray file must not open other files.
         [] if Builtin::find(&file.scene).is_err() => anyhow::bail!(
             "{} has rays of {:?}, which is not a built-in scene: name the mesh or scene file that they were recorded for",
             path.escaped(),
@@ -229,8 +216,7 @@ pub fn recorded(
     Ok(Some(((name.into(), scene), file)))
 }
 
-/// Like [`recorded`], but returns the rays as the request of a study, which times at most `rays` of them. `workloads`
-/// are the workloads on the command line. An error if there are any.
+/// Like [`recorded`], for a study that times at most `rays` rays.
 pub fn replayed<K>(
     registry: &Registry,
     source: &RaySource,

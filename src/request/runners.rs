@@ -11,25 +11,22 @@ use crate::runner::Program;
 /// Default timeout of a reply of a runner.
 pub const RUNNER_LIMIT: Seconds = Seconds::whole(120);
 
-/// A runner in a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunnerRequest {
     pub command: String,
-    /// Timeout of a reply, seconds.
+    /// Timeout of a reply in seconds.
     pub limit_s: f64,
-    /// The configuration. It includes a digest of the program: a changed program counts as another structure.
+    /// Includes a digest of the program: a changed program counts as another structure.
     pub config: serde_json::Value,
 }
 
-/// The structure of the runner `[NAME=]COMMAND` with the timeout `limit_s`. An error if it violates the protocol.
+/// `command` has the form `[NAME=]COMMAND`.
 pub fn runner(command: &str, limit_s: f64) -> anyhow::Result<Choice> {
     let program = Program::new(command, Duration::from_secs_f64(limit_s));
     let program = program.map_err(|problem| anyhow::anyhow!("--runner {command:?}: {problem}"))?;
     Ok(Choice::of_program(program))
 }
 
-/// The structures of several runners; a repeated command counts once. An error if two runners share a name, or a
-/// runner has the name of a structure.
 pub fn runners(registry: &Registry, commands: &[String], limit_s: f64) -> anyhow::Result<Vec<Choice>> {
     let mut chosen: Vec<Choice> = vec![];
     for command in commands {

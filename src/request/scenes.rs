@@ -1,4 +1,4 @@
-//! Resolves scene names the same way in every process: a built-in name, a generator with parameters, or a file.
+//! Scenes on the command line and in cases: built-in, generated, or from files.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -14,7 +14,6 @@ use crate::output::OutputFile;
 use crate::registry::Registry;
 use crate::scene::{Scene, load};
 
-/// A scene in a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneRequest {
     /// A built-in name, `NAME:stand-in`, a generated scene such as `icosphere:7`, or a file.
@@ -23,7 +22,7 @@ pub struct SceneRequest {
     #[serde(default, skip_serializing_if = "ViewArgs::is_default")]
     pub view: ViewArgs,
     pub name: String,
-    /// First 16 digits of [`Scene::hash`]: the loaded scene must have this hash.
+    /// The first 16 digits of [`Scene::hash`]. The loaded scene must have this hash.
     pub hash: String,
     /// Whether a generated mesh replaces a real one.
     pub stand_in: bool,
@@ -33,13 +32,12 @@ pub struct SceneRequest {
 /// Suffix after `NAME:` that selects the stand-in mesh of a built-in scene instead of the real one.
 const STAND_IN: &str = "stand-in";
 
-/// `NAME:stand-in`, which selects the stand-in mesh of the built-in scene `name`.
 pub fn stand_in(name: impl AsRef<OsStr>) -> OsString {
     [name.as_ref(), OsStr::new(":"), OsStr::new(STAND_IN)].into_iter().collect()
 }
 
 impl SceneRequest {
-    /// A request for `scene`. `word` is its name on the command line, and `view` has its camera options.
+    /// `word` is the name of the scene on the command line.
     pub fn new(word: impl Into<OsString>, view: &ViewArgs, scene: &Scene) -> Self {
         Self {
             word: word.into(),
@@ -51,7 +49,6 @@ impl SceneRequest {
         }
     }
 
-    /// Loads the scene. An error if it is missing or has changed since it was planned.
     pub fn load(&self, registry: &Registry) -> anyhow::Result<Scene> {
         let scene = self.view.of(scene(registry, &self.word)?)?;
         anyhow::ensure!(
@@ -63,19 +60,17 @@ impl SceneRequest {
     }
 }
 
-/// Loads the scenes `named`, or all built-in scenes if it is empty. An error if two different scenes have one name.
+/// Loads all built-in scenes if `named` is empty.
 pub fn scenes(registry: &Registry, named: &[OsString]) -> anyhow::Result<Vec<Scene>> {
     Ok(loaded(registry, &words(named))?.into_iter().map(|(_, scene)| scene).collect())
 }
 
-/// `named`, or the names of all built-in scenes if it is empty.
 pub fn words(named: &[OsString]) -> Vec<OsString> {
     if named.is_empty() { BUILTIN.iter().map(|builtin| builtin.name.into()).collect() } else { named.to_vec() }
 }
 
-/// Loads the distinct scenes, each with its word on the command line. An error if two different scenes have one name.
 fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsString, Scene)>> {
-    // Load in parallel, because large meshes take seconds. The loop below reports the first error in order.
+    // Large meshes take seconds, so scenes are loaded in parallel. The loop below reports the first error in order.
     let scenes: Vec<_> = words.par_iter().map(|word| scene(registry, word)).collect();
     let mut each: Vec<(OsString, Scene)> = vec![];
     for (word, scene) in words.iter().zip(scenes) {
@@ -92,8 +87,7 @@ fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsStri
     Ok(each)
 }
 
-/// Loads a built-in scene (in upper or lower case), a generated scene, a scene file, or a scene around a mesh file. If
-/// no such file exists and `word` has neither an extension nor a folder, the error is an unknown scene name.
+/// Loads a built-in scene, a generated scene, a scene file, or a scene around a mesh file.
 pub fn scene(registry: &Registry, word: impl AsRef<OsStr>) -> anyhow::Result<Scene> {
     let (path, real_meshes) = (Path::new(word.as_ref()), real_mesh_folder());
     let is_scene_file = || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
@@ -116,7 +110,6 @@ pub fn scene(registry: &Registry, word: impl AsRef<OsStr>) -> anyhow::Result<Sce
     }
 }
 
-/// The words that are paths of files. All other words name built-in or generated scenes.
 pub fn scene_files(registry: &Registry, words: &[OsString]) -> Vec<PathBuf> {
     let is_name = |word: &str| {
         let name = word.split(':').next().unwrap_or(word);
@@ -125,7 +118,7 @@ pub fn scene_files(registry: &Registry, words: &[OsString]) -> Vec<PathBuf> {
     words.iter().filter(|word| !word.to_str().is_some_and(is_name)).map(PathBuf::from).collect()
 }
 
-/// The output file `path`. An error if it is one of the inputs: the files among `scenes`, and `others`.
+/// Rejects an output file that is also an input file.
 pub fn output<'a>(
     registry: &Registry,
     path: &Path,
@@ -136,7 +129,6 @@ pub fn output<'a>(
     Ok(OutputFile::check(path)?.apart_from(files.iter().map(PathBuf::as_path))?.apart_from(others)?)
 }
 
-/// The notes that `of` returns for each scene, prefixed with the name of the scene.
 pub fn named_notes<'a>(scenes: impl IntoIterator<Item = &'a Scene>, of: fn(&Scene) -> &Vec<String>) -> Vec<String> {
     scenes.into_iter().flat_map(|scene| of(scene).iter().map(|note| format!("{}: {note}", scene.name))).collect()
 }
@@ -152,7 +144,7 @@ pub struct Scenes {
 }
 
 impl Scenes {
-    /// Loads the scenes that the command line names. If it names none: `own`, or all built-in scenes if `own` is empty.
+    /// Without scenes on the command line, loads `own`, or all built-in scenes if `own` is empty.
     pub fn read(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<(OsString, Scene)>> {
         let own: Vec<OsString> = own.iter().map(|&name| name.into()).collect();
         loaded(registry, &words(if self.scenes.is_empty() { &own } else { &self.scenes }))

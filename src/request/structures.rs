@@ -9,13 +9,11 @@ use crate::registry::{Choice, Registry};
 use crate::report::words::{bare, each_once_by};
 use crate::scene::Scene;
 
-/// The name of brute force, which tests every ray against every triangle.
 pub const BRUTE_FORCE: &str = "brute-force";
 
 /// The name of the source report's tree.
 pub const REPORT_TREE: &str = "median-kd";
 
-/// The name of the SAH tree, which the source report claims to be faster.
 pub const SAH_TREE: &str = "sah-kd";
 
 /// The word that selects one structure of every name.
@@ -24,10 +22,8 @@ pub const ALL: &str = "all";
 /// The role of the second build of a structure, for the A/A check.
 pub const TWIN: &str = "twin";
 
-/// The values of `--quality`.
 pub const QUALITIES: [&str; 3] = ["fast", "balanced", "high"];
 
-/// A structure in a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StructureRequest {
     /// `NAME` or `NAME:key=value,..`; for a runner, its label.
@@ -35,28 +31,25 @@ pub struct StructureRequest {
     /// The role of the structure in a study: [`TWIN`], or a cell of a factorial design; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub role: String,
-    /// The program of a runner; `None` for a structure of the registry.
+    /// `None` for a structure of the registry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub runner: Option<RunnerRequest>,
-    /// The reason, as a clause, why the structure is not built; `None` if it is built.
+    /// The reason, as a clause, why the structure is not built.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub skipped: Option<String>,
 }
 
 impl StructureRequest {
-    /// A structure with this spec and role.
     pub fn new(spec: impl Into<String>, role: impl Into<String>) -> Self {
         Self { spec: spec.into(), role: role.into(), runner: None, skipped: None }
     }
 
-    /// The request for a runner.
     pub fn of_runner(choice: &Choice, limit_s: f64) -> Self {
         let command = choice.command().unwrap_or_default().into();
         let runner = RunnerRequest { command, limit_s, config: choice.config.clone() };
         Self { runner: Some(runner), ..Self::from(choice) }
     }
 
-    /// The structure to build. An error if the registry does not know it, or its program does not start.
     pub fn choose(&self, registry: &Registry) -> anyhow::Result<Choice> {
         match &self.runner {
             Some(own) => runner(&own.command, own.limit_s),
@@ -64,7 +57,6 @@ impl StructureRequest {
         }
     }
 
-    /// Name in the registry.
     pub fn name(&self) -> &str {
         bare(&self.spec)
     }
@@ -81,7 +73,7 @@ pub fn is_external(name: &str, triangle_test: &str) -> bool {
     Registry::builtin().find(name, triangle_test).is_none()
 }
 
-/// The structures `named`, in which [`ALL`] is replaced by all names. All names if `named` is empty.
+/// Replaces [`ALL`] by all names. If `named` is empty, returns all names.
 pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     let all = [ALL.to_owned()];
     let specs = if named.is_empty() { &all } else { named }.iter();
@@ -89,12 +81,12 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     each.map(String::from).collect()
 }
 
-/// The distinct structures `named`. If `named` is empty: every structure with its default triangle test.
+/// If `named` is empty, returns every structure with its default triangle test.
 pub fn structures(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<Choice>> {
     structures_at(registry, named, None)
 }
 
-/// Like [`structures`]. A structure that has a key `quality` gets this quality, unless `named` sets the key.
+/// A structure with a key `quality` gets this quality, unless `named` sets the key.
 pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str>) -> anyhow::Result<Vec<Choice>> {
     let at = |spec: String| {
         let Some(quality) = quality else { return spec };
@@ -106,7 +98,7 @@ pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str
     Ok(each_once_by(choices.collect::<Result<Vec<_>, _>>()?, |one, other| one.label == other.label))
 }
 
-/// Returns an error that lists the known triangle tests if a name in `tests` is not one of them.
+/// Checks that all `tests` are names of triangle tests.
 pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> {
     let mut known: Vec<&str> = registry.entries().iter().map(|entry| entry.triangle_test).collect();
     known.sort_unstable();
@@ -122,11 +114,10 @@ pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> 
     Ok(())
 }
 
-/// The structure whose hits are the origins of secondary rays: the SAH tree, or the first structure if the registry has
-/// no SAH tree. An error if the registry is empty.
-pub fn guide(registry: &Registry) -> anyhow::Result<Choice> {
-    let guide = registry.choose(SAH_TREE).ok().or_else(|| registry.all().into_iter().next());
-    guide.context("no structure is registered: register one with `Registry::with`")
+/// The structure whose hits are the origins of secondary rays.
+pub fn secondary_ray_structure(registry: &Registry) -> anyhow::Result<Choice> {
+    let structure = registry.choose(SAH_TREE).ok().or_else(|| registry.all().into_iter().next());
+    structure.context("no structure is registered: register one with `Registry::with`")
 }
 
 /// Structures on the command line.
@@ -145,14 +136,14 @@ pub struct Structures {
 }
 
 impl Structures {
-    /// The structures on the command line. If there are none: `own`, or one of each name if `own` is empty.
+    /// Without structures on the command line, returns `own`, or all structures if `own` is empty.
     pub fn chosen(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<StructureRequest>> {
         let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
         let named = if self.structure.is_empty() { &own } else { &self.structure };
         Ok(structures_at(registry, named, self.quality.as_deref())?.iter().map(Into::into).collect())
     }
 
-    /// Whether to skip the structure `name`: it is brute force, was not named, and would take minutes on the mesh.
+    /// Whether to skip the structure. Brute force takes minutes on a large mesh, so it is skipped unless it is named.
     pub fn leaves_out(&self, name: &str, triangles: usize) -> bool {
         name == BRUTE_FORCE && is_large(triangles) && !self.names_brute_force()
     }
@@ -163,8 +154,8 @@ impl Structures {
     }
 }
 
-/// Adds a twin for the A/A check: a second build of the SAH tree. Without a SAH tree, the twin is a second build of the
-/// first structure except brute force and the source report's tree, which are slow; if all are slow, of the first one.
+/// Adds a twin for the A/A check: a second build of the SAH tree. Without a SAH tree, the twin is a second build of
+/// another structure. A slow structure has a twin only if all structures are slow.
 pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest> {
     let slow = |structure: &&StructureRequest| [BRUTE_FORCE, REPORT_TREE].contains(&structure.name());
     let sah = structures.iter().find(|structure| structure.name() == SAH_TREE);
@@ -173,22 +164,20 @@ pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest>
     structures
 }
 
-/// Whether a mesh is so large that work proportional to its triangles is sampled or skipped. On such a mesh, brute
-/// force takes at least ten milliseconds per ray.
+/// Whether work that is proportional to the triangles is sampled or skipped. On a large mesh, brute force takes at
+/// least ten milliseconds per ray.
 pub fn is_large(triangles: usize) -> bool {
     triangles > 1 << 22
 }
 
-/// The note that brute force is skipped because the scene is [large](is_large).
-pub fn left_out(scene: &Scene) -> String {
+pub fn brute_force_note(scene: &Scene) -> String {
     format!(
         "{}: {BRUTE_FORCE} is skipped (minutes on so many triangles); pass --structure {BRUTE_FORCE} to run it",
         scene.name
     )
 }
 
-/// The known defects of a baseline or peer. Wrong hits of such a structure are shown, but do not affect the exit
-/// status. `None` for all other structures.
+/// Wrong hits of a structure with known defects do not affect the exit status.
 pub fn known_defect(structure: &str) -> Option<&'static str> {
     match structure {
         "obvhs-bvh2" | "obvhs-cwbvh" => Some(
@@ -215,7 +204,6 @@ pub fn known_defect(structure: &str) -> Option<&'static str> {
     }
 }
 
-/// Whether a structure is an obvhs BVH.
 pub fn is_obvhs(structure: &str) -> bool {
     structure.starts_with("obvhs-")
 }
@@ -257,7 +245,7 @@ mod tests {
         let labels = |specs: &[&str], quality| -> Vec<String> {
             let specs: Vec<String> = specs.iter().map(|&spec| spec.into()).collect();
             let chosen = structures_at(&registry, &specs, quality).unwrap();
-            // A case stores only the label, so the label must select the same configuration.
+            // A case stores only the label. The label must therefore select the same configuration.
             assert!(chosen.iter().all(|choice| registry.choose(&choice.label).unwrap().config == choice.config));
             chosen.into_iter().map(|choice| choice.label).collect()
         };

@@ -78,7 +78,6 @@ impl Look {
 }
 
 impl ViewArgs {
-    /// The scene with the camera and picture size of the options. An error if the camera is invalid.
     pub fn seen(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = if self.inside { scene.from_inside().context("--inside")? } else { scene };
         if let Some(Look { eye, target, vertical_fov }) = self.camera {
@@ -89,7 +88,7 @@ impl ViewArgs {
         Ok(scene)
     }
 
-    /// Like [`seen`](Self::seen), but adds a note if a mesh file has the default view, which is from outside.
+    /// Like [`seen`](Self::seen), but adds a note if a mesh file has the default view.
     pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = self.seen(scene)?;
         if scene.is_framed && self.looks_from().is_none() {
@@ -99,12 +98,11 @@ impl ViewArgs {
         Ok(scene)
     }
 
-    /// Whether no option was given.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 
-    /// The name of the option that sets the viewpoint; `None` if there is none.
+    /// The name of the option that sets the viewpoint.
     pub fn looks_from(&self) -> Option<&'static str> {
         match (self.inside, self.camera) {
             (true, _) => Some("--inside"),
@@ -113,7 +111,7 @@ impl ViewArgs {
         }
     }
 
-    /// The options as arguments for a shell; empty without options.
+    /// The options as arguments for a shell.
     pub fn words(&self) -> String {
         let camera = self.camera.filter(|_| !self.inside).map(|look| format!("--camera '{}'", String::from(look)));
         let inside = self.inside.then(|| "--inside".to_owned());
@@ -121,7 +119,6 @@ impl ViewArgs {
         [camera, inside, size].into_iter().flatten().collect::<Vec<String>>().join(" ")
     }
 
-    /// Returns an error if there are camera options, because they have no effect on the rays of a file.
     pub fn reject_unused(&self) -> anyhow::Result<()> {
         anyhow::ensure!(self.is_default(), "the file defines the rays: omit --camera, --inside and --size");
         Ok(())
@@ -178,7 +175,6 @@ mod tests {
         let extent = bounds.max - bounds.min;
         let along = if extent.x >= extent.z { view.x } else { view.z };
         assert!(along.abs() == view.length() && inside.size == [8, 6]);
-        // The lights of the scene do not change.
         assert_eq!(inside.lights.len(), lights.len());
         assert_eq!(inside.lights[0].position, lights[0].position);
     }

@@ -21,10 +21,9 @@ use crate::scene::files::mesh_bytes;
 
 pub use program::Program;
 
-/// A structure that a [`Program`] has built.
 pub struct Runner {
     state: Mutex<State>,
-    /// The folder of the files that are exchanged with the program.
+    /// The folder of the files for the program.
     folder: TempDir,
     capabilities: Capabilities,
     build_ns: u64,
@@ -33,7 +32,6 @@ pub struct Runner {
 }
 
 impl Runner {
-    /// Starts the program and requests a build over `mesh`.
     pub fn build(program: &Program, mesh: &Mesh) -> Result<Self, BuildError> {
         Self::begin(program, mesh).map_err(BuildError::Remote)
     }

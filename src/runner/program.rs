@@ -7,10 +7,10 @@ use super::session::{Session, unexpected};
 use crate::accel::Capabilities;
 use crate::measure::program::file_id;
 
-/// A program that implements the protocol, with the time limit for its replies.
+/// A program that implements the protocol of runners.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
-    /// `NAME` of `NAME=COMMAND`; `None` without a valid name (letters, digits, `-` and `_`).
+    /// `NAME` of `NAME=COMMAND`; `None` without a valid name.
     name: Option<String>,
     command: String,
     /// The command without the name, split as by a shell.
@@ -34,7 +34,7 @@ impl Program {
         &self.command
     }
 
-    /// The given name; by default the file name of the program, followed by its arguments.
+    /// By default, the file name of the program, followed by the arguments.
     pub fn name(&self) -> String {
         self.name.clone().unwrap_or_else(|| {
             let file = Path::new(&self.words[0]).file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -42,14 +42,13 @@ impl Program {
         })
     }
 
-    /// Identifies the build: the first digits of the SHA-256 of the program and of each file among its arguments, such
-    /// as the script of an interpreter. A program found on the search path is omitted. `None` if no file remains.
+    /// The first digits of the SHA-256 of the program and of each file among the arguments. `None` if no word of the
+    /// command is the path of a file.
     pub fn build_id(&self) -> Option<String> {
         let ids: Vec<String> = self.words.iter().filter_map(|word| file_id(Path::new(word)).ok()).collect();
         (!ids.is_empty()).then(|| ids.join(" "))
     }
 
-    /// Advice for the user if the text before the first `=` of the command is not a valid name; otherwise empty.
     fn advice_on_name(&self) -> String {
         match self.command.split_once('=') {
             Some((text, _)) if !is_name(text) => format!(
@@ -59,7 +58,7 @@ impl Program {
         }
     }
 
-    /// Starts the program and reads its first reply, which states the supported queries.
+    /// The first reply of the program states the supported queries.
     pub(super) fn start(&self, threads: usize) -> Result<(Session, Capabilities), String> {
         let session = Session::start(&self.words, threads, self.limit);
         let mut session = session.map_err(|problem| problem + &self.advice_on_name())?;
@@ -73,7 +72,6 @@ impl Program {
     }
 }
 
-/// Whether `text` is a valid NAME in `NAME=COMMAND`.
 fn is_name(text: &str) -> bool {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     !text.is_empty() && text.chars().all(is_plain)

@@ -12,28 +12,26 @@ use crate::output::OutputFile;
 use crate::scene::Workload;
 use crate::scene::files::{HitFile, RayFile, RaysId};
 
-/// The running program, and the data that all its ray sets share.
+/// The running program, and the data that its ray sets share.
 pub(super) struct State {
     pub session: Session,
-    /// The reason why the runner failed. A runner that has failed receives no more requests.
+    /// The reason why the runner failed. A failed runner receives no more requests.
     pub failure: Option<String>,
-    /// The element `i` states whether the number `i` is taken by a ray set.
+    /// Element `i` states whether a ray set has the number `i`.
     pub taken: Vec<bool>,
     /// The elapsed time divided by the time that the runner reported, for each pass longer than [`LONG_NS`].
     pub outside: Vec<f64>,
 }
 
-/// Minimum time of a pass for [`State::outside`]. In shorter passes, request and reply take a notable part of the time.
+/// Minimum time of a pass for [`State::outside`]. Request and reply take a notable part of a shorter pass.
 const LONG_NS: u64 = 1_000_000;
 
 pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A numbered set of rays.
 pub(super) struct RaySet<'a> {
     state: &'a Mutex<State>,
-    /// The folder of the exchanged files.
     folder: &'a Path,
     number: usize,
     rays: Cow<'a, [Ray]>,
@@ -51,7 +49,7 @@ impl<'a> RaySet<'a> {
         Self { state, folder, number, rays, loaded: Mutex::new(None), own_ns: AtomicU64::new(0) }
     }
 
-    /// The hits of all rays; `None` if the runner has failed or there are no rays.
+    /// `None` if the runner has failed or there are no rays.
     fn hits(&self, query: Query) -> Option<Vec<Option<Hit>>> {
         let state = &mut *locked(self.state);
         if state.failure.is_some() || self.rays.is_empty() {
@@ -90,7 +88,6 @@ impl<'a> RaySet<'a> {
         Ok(hits.to_vec())
     }
 
-    /// Makes the runner load the rays for a query.
     fn send(&self, state: &mut State, query: Query) -> Result<RaysId, String> {
         let workload = Workload { name: query.name().into(), query, rays: self.rays.to_vec() };
         let id = RaysId::of(&workload);

@@ -8,16 +8,15 @@ use std::time::{Duration, Instant};
 
 use crate::measure::{on_all_cores, process_group};
 
-/// A running program, with a time limit for each reply.
 pub(super) struct Session {
     child: Child,
-    /// `None` after it was closed.
+    /// `None` after the input was closed.
     input: Option<ChildStdin>,
     lines: Receiver<Vec<u8>>,
     limit: Duration,
 }
 
-/// A line of output, and the time from the request to its arrival.
+/// A line of output, and the time from the request to the line.
 pub(super) struct Reply {
     pub text: String,
     pub ns: u64,
@@ -26,11 +25,11 @@ pub(super) struct Reply {
 /// The maximum length of a reply in bytes. The remainder of a longer line counts as output without a request.
 const LONGEST: u64 = 4096;
 
-/// How long a program may take to end after its input was closed.
+/// The time that a program has to end after its input was closed.
 const GRACE_PERIOD: Duration = Duration::from_millis(500);
 
 impl Session {
-    /// Starts the program `words[0]` with its arguments. If `threads > 1`, it runs on all cores of this process.
+    /// A program with several threads may run on all cores that this process may use.
     pub fn start(words: &[String], threads: usize, limit: Duration) -> Result<Self, String> {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
@@ -53,8 +52,8 @@ impl Session {
         Ok(Self { child, input, lines, limit })
     }
 
-    /// Sends a line and returns the reply. Fails if the program has ended, does not reply in time, writes a line before
-    /// the request, or reports an error. The program is then killed, and the error is a clause.
+    /// Sends a line and returns the reply. If the request fails, the program is killed, and the error message is a
+    /// clause.
     pub fn request(&mut self, request: &str) -> Result<Reply, String> {
         let reply = self.exchange(request);
         if reply.is_err() {
@@ -69,7 +68,7 @@ impl Session {
             return Err(format!("it printed {:?} before the request {request:?}: {advice}", text(&line)));
         }
         let start = Instant::now();
-        // If the program has ended, this write may fail; the missing reply is reported below.
+        // The write may fail if the program has ended. The missing reply is reported below.
         if let Some(input) = &mut self.input {
             let _ = writeln!(input, "{request}");
         }
@@ -93,7 +92,7 @@ impl Session {
     }
 
     /// Closes the input, waits up to `patience`, then kills the program and all programs that it has started. Returns
-    /// the exit status if the program ended by itself.
+    /// the exit status if the program ended before it was killed.
     fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
         self.input = None;
         let has_ended = process_group::ends_within(&mut self.child, patience);
@@ -108,20 +107,20 @@ impl Drop for Session {
     }
 }
 
-/// A line without its line break, and without characters that would garble a terminal.
+/// Removes the line break, and replaces control characters, which would garble a terminal.
 fn text(line: &[u8]) -> String {
     let text = String::from_utf8_lossy(line);
     text.trim_end_matches(['\r', '\n']).chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// The error for a reply that is not of the form `form`, with advice if the reply may be a message to the user.
+/// A reply with another first word than `form` may be a message to the user.
 pub(super) fn unexpected(request: &str, reply: &str, form: &str) -> String {
     let word = |line: &str| line.split(' ').next().map(String::from);
     let advice = if word(reply) == word(form) { "" } else { ": write messages to standard error" };
     format!("it replies {reply:?} to {request:?}, not {form:?}{advice}")
 }
 
-/// Nanoseconds from the seconds that a runner reports; `None` outside [0, 1e9) seconds.
+/// Nanoseconds from seconds. `None` outside [0, 1e9) seconds.
 pub(super) fn nanoseconds(seconds: &str) -> Option<u64> {
     let seconds: f64 = seconds.parse().ok()?;
     (0.0..1e9).contains(&seconds).then_some((seconds * 1e9) as u64)

@@ -1,5 +1,4 @@
-//! A case: one epoch of one scene, the unit that one process measures. A case is plain data: the process that measures
-//! it does not need the study that planned it.
+//! A case: one epoch of one scene, measured by one process. This process does not need the study that planned the case.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +8,10 @@ use serde_json::{Map, Value, json};
 use crate::measure::checksum;
 use crate::registry::Registry;
 use crate::report::words::scene_name;
-use crate::request::{Measuring, SceneRequest, StructureRequest, WorkloadRequest, guide};
+use crate::request::{Measuring, SceneRequest, StructureRequest, WorkloadRequest, secondary_ray_structure};
 
-/// One epoch of one scene, to be measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Case {
-    /// Name of the study that planned it.
     pub study: String,
     pub scene: SceneRequest,
     /// The position on the axes of the study, such as `level=7`.
@@ -26,24 +23,23 @@ pub struct Case {
     pub settings: Settings,
     /// Counted from 0. Only epoch 0 checks hits and counts work.
     pub epoch: usize,
-    /// Planned epochs. A run with more epochs adds to the existing ones.
+    /// Planned epochs. A later run with a larger number adds epochs.
     pub epochs: usize,
-    /// The command line that planned it.
+    /// The command line that planned the case.
     pub command: String,
 }
 
-/// How a case is measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// Samples per structure and workload, at least 1; fewer if the budget runs out.
     pub runs: usize,
-    /// Time for all samples of an epoch, ns. If it is too short: fewer samples, then fewer rays. `None`: no limit.
+    /// Time for all samples of an epoch. A short budget reduces the samples, then the rays. `None` is unlimited.
     pub budget_ns: Option<u64>,
-    /// Above this multiple of the median time of all structures, a structure is timed on fewer rays. `None`: no limit.
+    /// A structure above this multiple of the median time is timed on fewer rays. `None` is unlimited.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest: Option<f64>,
     pub check: Check,
-    /// Time limit of a build, seconds; a structure that takes longer has no times.
+    /// A structure with a longer build has no times. `None` is unlimited.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub build_limit_s: Option<f64>,
     /// Specs of structures whose triangle tests are counted over all rays, not over a sample.
@@ -53,10 +49,10 @@ pub struct Settings {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub whole: bool,
     /// Spec of the structure whose hits are the origins of secondary rays.
-    pub guide: String,
+    #[serde(rename = "guide")]
+    pub secondary_ray_structure: String,
     /// Seed of the workloads and of the order of samples.
     pub seed: u64,
-    /// Threads that build and trace.
     pub threads: usize,
 }
 
@@ -64,14 +60,14 @@ pub struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "against", rename_all = "kebab-case")]
 pub enum Check {
-    /// Brute force over the same triangle test (about `tests` tests per workload). A wrong hit removes the times.
+    /// Brute force over the same triangle test, with about `tests` tests per workload. A wrong hit removes the times.
     BruteForce {
         tests: usize,
-        /// Time limit of all checks of a scene, ns. `None`: no limit.
+        /// Time limit of all checks of a scene. `None` is unlimited.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         limit_ns: Option<u64>,
     },
-    /// The exact oracle. Errors are counted, and structures with errors keep their times.
+    /// Exact arithmetic. Errors are counted, and structures with errors keep their times.
     Oracle,
 }
 
@@ -88,13 +84,13 @@ impl Default for Check {
 pub const SLOWEST: f64 = 4.0;
 
 impl Settings {
-    /// Whether this is a quick run: its checks have a time limit, and other long steps are shortened.
+    /// Only quick runs have a time limit for checks.
     pub fn is_quick(&self) -> bool {
         matches!(self.check, Check::BruteForce { limit_ns: Some(_), .. })
     }
 
-    /// One sample of all rays on one thread, checked against brute force. Secondary rays start at the hits of `guide`.
-    pub fn for_guide(guide: impl Into<String>) -> Self {
+    /// One sample of all rays on one thread, checked against brute force.
+    pub fn one_sample(secondary_ray_structure: impl Into<String>) -> Self {
         Self {
             runs: 1,
             budget_ns: None,
@@ -103,13 +99,12 @@ impl Settings {
             build_limit_s: None,
             whole_counts: vec![],
             whole: false,
-            guide: guide.into(),
+            secondary_ray_structure: secondary_ray_structure.into(),
             seed: 1,
             threads: 1,
         }
     }
 
-    /// The settings in `measuring`, with hits checked against brute force. An error if the registry is empty.
     pub fn new<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32>(
         measuring: &Measuring<EPOCHS, RUNS, BUDGET>,
         registry: &Registry,
@@ -119,26 +114,24 @@ impl Settings {
             budget_ns: measuring.budget.ns(),
             seed: measuring.seed,
             threads: measuring.threads.into(),
-            ..Self::for_guide(guide(registry)?.label)
+            ..Self::one_sample(secondary_ray_structure(registry)?.label)
         })
     }
 }
 
-/// Builds over this many triangles take about a quarter of an epoch's fixed time, which does not depend on the mesh.
+/// Builds over this many triangles take about a quarter of the fixed time of an epoch.
 const TRIANGLES: u64 = 12_000;
 
 impl Case {
-    /// The name of the scene in keys and tables.
     pub fn scene_title(&self) -> String {
         scene_name(&self.scene.name, self.scene.stand_in)
     }
 
-    /// The name in progress messages.
     pub fn title(&self) -> String {
         format!("epoch {} of {}: {}", self.epoch + 1, self.epochs, self.scene_title())
     }
 
-    /// The scene, its labels and the epoch: the readable part of the file name.
+    /// The readable part of the file name.
     pub fn key(&self) -> String {
         let labels: String = self.labels.iter().map(|(name, value)| format!("{name}={value} ")).collect();
         format!("{} {labels}epoch {}", self.scene_title(), self.epoch)
@@ -150,17 +143,16 @@ impl Case {
         (4 + self.scene.triangles as u64 / TRIANGLES) * if self.epoch == 0 { 2 } else { 1 }
     }
 
-    /// Whether both cases belong to one measurement: same study, scene, labels, structures, workloads and settings.
-    pub fn is_beside(&self, other: &Self) -> bool {
+    /// Whether both cases belong to one measurement. Their epochs may differ.
+    pub fn is_same_measurement(&self, other: &Self) -> bool {
         self.identity() == other.identity()
     }
 
     /// Whether both cases are the same epoch of one measurement.
     pub fn is_same(&self, other: &Self) -> bool {
-        self.epoch == other.epoch && self.is_beside(other)
+        self.epoch == other.epoch && self.is_same_measurement(other)
     }
 
-    /// Whether both cases have the same scene and labels.
     pub fn is_of_scene(&self, other: &Self) -> bool {
         (&self.scene.hash, self.scene_title(), &self.labels) == (&other.scene.hash, other.scene_title(), &other.labels)
     }
@@ -185,7 +177,7 @@ impl Case {
         let settings = serde_json::to_value(&self.settings).expect("settings have text keys");
         let Value::Object(mut map) = settings else { unreachable!("settings are a struct") };
         map.remove("whole_counts");
-        // The default limit grows with the mesh, so it differs between scenes.
+        // The default limit grows with the mesh: scenes have different limits.
         map.remove("build_limit_s");
         let workloads = serde_json::to_value(&self.workloads).expect("a request has text keys");
         // The scenes of `replicate` form one group, although some have all rays and others only primary rays.
@@ -206,7 +198,6 @@ impl Case {
 pub(crate) mod tests {
     use super::*;
 
-    /// One epoch of a scene that does not exist.
     pub fn example(scene: &str, epoch: usize, structures: &[&str]) -> Case {
         Case {
             study: "compare".into(),
@@ -221,7 +212,7 @@ pub(crate) mod tests {
             labels: BTreeMap::new(),
             structures: structures.iter().map(|&spec| StructureRequest::new(spec, "")).collect(),
             workloads: WorkloadRequest::Scene { kinds: vec![crate::scene::WorkloadKind::Primary], rays: None },
-            settings: Settings { runs: 3, budget_ns: Some(1_000_000_000), ..Settings::for_guide("sah-kd") },
+            settings: Settings { runs: 3, budget_ns: Some(1_000_000_000), ..Settings::one_sample("sah-kd") },
             epoch,
             epochs: 2,
             command: "sahara compare".into(),
@@ -236,7 +227,7 @@ pub(crate) mod tests {
         let more = Case { epochs: 9, command: "sahara study all".into(), ..case.clone() };
         assert!(case.is_same(&more) && case.digest(&()) == more.digest(&()) && case.key() == more.key());
         let next = Case { epoch: 1, ..case.clone() };
-        assert!(case.is_beside(&next) && !case.is_same(&next) && case.key() != next.key());
+        assert!(case.is_same_measurement(&next) && !case.is_same(&next) && case.key() != next.key());
         let changes: [fn(&mut Case); 6] = [
             |case| case.settings.runs = 4,
             |case| case.structures[0].spec = "sah-bvh".into(),
@@ -248,7 +239,7 @@ pub(crate) mod tests {
         for change in changes {
             let mut other = case.clone();
             change(&mut other);
-            assert!(!case.is_beside(&other) && case.digest(&()) != other.digest(&()), "{other:?}");
+            assert!(!case.is_same_measurement(&other) && case.digest(&()) != other.digest(&()), "{other:?}");
         }
         assert_ne!(case.digest(&"this machine"), case.digest(&"another"));
     }

@@ -4,7 +4,6 @@ use crate::measure::{Estimate, Interval};
 use crate::report::number::figures;
 use crate::report::{ClaimVerdict, Finding, Outcome};
 
-/// The expected range of a number.
 struct Claim {
     prediction: u8,
     /// The key of the finding that states the number.
@@ -15,10 +14,10 @@ struct Claim {
     scale: Scale,
 }
 
-/// How to widen the interval of a number. All claims are judged together, so the correction depends on [`CLAIMS`].
+/// The correction of an interval. All claims are judged together, so the correction depends on [`CLAIMS`].
 #[derive(Clone, Copy)]
 enum Scale {
-    /// The number is a ratio: widen the interval of its logarithm.
+    /// A ratio: the interval of its logarithm is widened.
     Ratio,
     Number,
     /// The interval of the finding is already corrected for all claims.
@@ -26,7 +25,6 @@ enum Scale {
 }
 use Scale::{Judged, Number, Ratio};
 
-/// The number of claims.
 pub const CLAIMS: usize = REPLICATE.len() + SCALING.len() + ATTRIBUTION.len() + COMPARE.len();
 
 const NONE: f64 = f64::INFINITY;
@@ -35,11 +33,10 @@ const WHOLE: [f64; 2] = [20.0, NONE];
 const PLANE: [f64; 2] = [1.2, 5.0];
 // The prediction is "more tests than brute force", so the number of brute force, 1, is outside the range.
 const MORE: [f64; 2] = [1.0_f64.next_up(), NONE];
-// The predictions say "well" and "badly" without numbers; this project chose these values of tau.
+// The predictions have the words "well" and "badly" without numbers. This project chose these values of tau.
 const WELL: [f64; 2] = [0.7, NONE];
 const BADLY: [f64; 2] = [-NONE, 0.5];
 
-/// Shortens the rows of the tables below.
 const fn claim(prediction: u8, key: &'static str, what: &'static str, range: [f64; 2], scale: Scale) -> Claim {
     Claim { prediction, key, what, range, scale }
 }
@@ -79,7 +76,6 @@ const ATTRIBUTION: [Claim; 9] = [
 const COMPARE: [Claim; 1] =
     [claim(7, "tau", "tau of SAH cost and time, structures of different families (mean of scenes)", BADLY, Judged)];
 
-/// The claims that a study measures, in the order of the predictions.
 fn of_study(study: &str) -> &'static [Claim] {
     match study {
         "replicate" => &REPLICATE,
@@ -123,14 +119,13 @@ impl Claim {
     }
 }
 
-/// The verdicts on the claims of `study`, from its findings. Empty if no claim has a measured number.
+/// Empty if no claim has a measured number.
 pub fn judge(study: &str, findings: &[Finding]) -> Vec<ClaimVerdict> {
     let verdicts: Vec<ClaimVerdict> = of_study(study).iter().map(|claim| claim.judge(findings)).collect();
     let is_measured = verdicts.iter().any(|verdict| verdict.outcome != Outcome::NotMeasured);
     if is_measured { verdicts } else { vec![] }
 }
 
-/// The number of claims by outcome: `10 of 24 confirmed, 9 refuted, 4 undecided, 1 not measured`.
 pub fn tally<'a>(verdicts: impl IntoIterator<Item = &'a ClaimVerdict>) -> String {
     let outcomes: Vec<Outcome> = verdicts.into_iter().map(|verdict| verdict.outcome).collect();
     let count = |outcome: Outcome| outcomes.iter().filter(|own| **own == outcome).count();

@@ -1,4 +1,5 @@
-//! The input of a report: cases with the same study and [group](Case::group), measured by one build on one machine.
+//! The measured cases that a report reads. All cases are of one study, one [group](Case::group), one build and one
+//! machine.
 #![doc = include_str!("SCHEMA.md")]
 
 use serde::{Deserialize, Serialize};
@@ -12,31 +13,28 @@ use crate::report::Failure;
 use crate::report::words::{distinct, each_once};
 use crate::request::is_external;
 
-/// A case with its results.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     pub case: Case,
     pub epoch: Epoch,
 }
 
-/// The measured cases of one group, with their provenance. `--export-json` writes a dataset.
+/// `--export-json` writes a dataset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dataset {
-    /// Version of this format.
     pub schema: u32,
     pub provenance: Provenance,
     pub measured: Vec<Measured>,
-    /// Missing or omitted measurements, one sentence each.
+    /// Sentences about missing or omitted measurements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
-/// All epochs of one scene.
 #[derive(Clone, Debug)]
 pub struct SceneEpochs<'a> {
-    /// The case of the first epoch.
+    /// The first case of the scene in the dataset.
     pub case: &'a Case,
-    /// The epochs, ordered by number; at least one.
+    /// At least one epoch, in the order of the epoch numbers.
     pub epochs: Vec<&'a Epoch>,
 }
 
@@ -48,12 +46,10 @@ impl Dataset {
         Self { schema: Self::SCHEMA, provenance, measured, notes: vec![] }
     }
 
-    /// The name of the study that planned the cases; `None` for an empty dataset.
     pub fn study(&self) -> Option<&str> {
         Some(self.measured.first()?.case.study.as_str())
     }
 
-    /// The epochs by scene, in the order in which the scenes first occur.
     pub fn scenes(&self) -> Vec<SceneEpochs<'_>> {
         let mut scenes: Vec<SceneEpochs> = vec![];
         for Measured { case, epoch } in &self.measured {
@@ -66,12 +62,10 @@ impl Dataset {
         scenes
     }
 
-    /// One failure for each refused structure, and for each structure and workload without a time; no duplicates.
     pub fn failures(&self) -> Vec<Failure> {
         each_once(self.measured.iter().flat_map(|measured| measured.epoch.failures()))
     }
 
-    /// One sentence about each structure that a user brings: a structure of another crate, or a runner.
     pub fn verdicts(&self) -> Vec<String> {
         let is_own = |own: &&Structure| !own.is_twin() && is_external(&own.name, &own.triangle_test);
         let all = || self.measured.iter().flat_map(|own| &own.epoch.structures).filter(is_own);
@@ -83,30 +77,26 @@ impl Dataset {
         distinct(all().map(|own| &own.label)).into_iter().map(sentence).collect()
     }
 
-    /// The commands that planned the cases, without duplicates.
     pub fn commands(&self) -> Vec<&str> {
         each_once(self.measured.iter().map(|measured| measured.case.command.as_str()))
     }
 
-    /// The dataset as JSON.
     pub fn to_json(&self) -> Vec<u8> {
         let mut bytes = serde_json::to_vec(self).expect("a dataset has text keys");
         bytes.push(b'\n');
         bytes
     }
 
-    /// Whether `value` is a dataset, of any version.
+    /// Also true for a dataset of another version.
     pub fn is_dataset(value: &serde_json::Value) -> bool {
         ["schema", "provenance", "measured"].iter().all(|field| value.get(field).is_some())
     }
 
-    /// Parses the JSON `value` of the file `path`. An error if it is not a dataset of this version.
     pub fn read(path: &std::path::Path, value: serde_json::Value) -> Result<Self, JournalError> {
         Self::check_schema(path, &value)?;
         serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))
     }
 
-    /// Returns an error if the version of a dataset or case file is not [`SCHEMA`](Self::SCHEMA).
     pub(super) fn check_schema(path: &std::path::Path, value: &serde_json::Value) -> Result<(), JournalError> {
         let (there, here) = (value.get("schema").and_then(serde_json::Value::as_u64).unwrap_or(0) as u32, Self::SCHEMA);
         if there == here { Ok(()) } else { Err(JournalError::Schema { path: path.into(), there, here }) }

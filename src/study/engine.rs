@@ -1,4 +1,4 @@
-//! Runs a study: measures the cases that its journal lacks, one by one, and reports.
+//! Measures the cases of a study that the journal lacks, and reports.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -14,38 +14,32 @@ use crate::registry::Registry;
 use crate::report::{Report, Table, terminal};
 use crate::scene::Scene;
 
-/// The inputs of a run.
 pub struct Run<'a> {
     pub registry: &'a Registry,
     /// The folder of all journals.
     pub folder: &'a Path,
-    /// Whether to keep the journal in `folder`; otherwise it is temporary. `None`: the plan decides.
+    /// If `Some(false)`, the journal is temporary. If `None`, the plan decides.
     pub keep_journal: Option<bool>,
-    /// Whether to measure all cases again, even if the journal has them.
+    /// Measures all cases again, even if the journal has them.
     pub fresh: bool,
-    /// Options for the processes that measure one case each. `None`: this process measures all cases.
+    /// Options of the processes that measure one case each. If `None`, this process measures all cases.
     pub processes: Option<&'a [OsString]>,
     pub screen: &'a mut dyn Screen,
 }
 
-/// The result of a run.
 pub struct RunOutcome {
-    /// `None` if the run was interrupted or no scene could be measured. No export is then written.
+    /// `None` if the run was interrupted or no scene could be measured.
     pub dataset: Option<Dataset>,
     pub report: Report,
     /// Tables that were not printed during the run.
     pub tables: Vec<Table>,
-    /// Notes that explain the tables.
     pub notes: Vec<String>,
-    /// Lines below the tables: failures, scenes without epoch 0, findings, provenance, verdicts and an interruption.
     pub foot: Vec<String>,
     pub status: Status,
-    /// The errors of scenes that failed. All other scenes are measured.
     pub failures: Vec<StudyError>,
 }
 
-/// Measures the cases of `plan` that the journal lacks, and reports. An error if the journal or the threads cannot be
-/// used, or a case fails for a reason that is not specific to its scene.
+/// Measures the cases of `plan` that the journal lacks. An error of a single scene does not end the run.
 pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> anyhow::Result<RunOutcome> {
     let threads = plan.cases.first().map_or(1, |case| case.settings.threads);
     let threads = Threads::unstarted(threads);
@@ -89,21 +83,19 @@ struct Engine<'a> {
     journal: Journal,
     provenance: Provenance,
     threads: Threads,
-    /// The last scene that this process measured, and its name on the command line. Loading it again may take seconds.
+    /// The last measured scene and its name on the command line. Loading a scene again may take seconds.
     loaded: Option<(OsString, Scene)>,
-    /// The errors of scenes that failed.
     failures: Vec<StudyError>,
-    /// Cases whose scene gets no further epoch, because it failed or its time is up.
+    /// Cases whose scenes get no further epochs, because of a failure or the time limit.
     ended: Vec<Case>,
 }
 
 impl Engine<'_> {
-    /// Whether the scene of `case` gets no further epoch.
     fn has_ended(&self, case: &Case) -> bool {
         self.ended.iter().any(|ended| ended.is_of_scene(case))
     }
 
-    /// Measures all missing cases. Returns whether the user interrupted the run.
+    /// Returns whether the user interrupted the run.
     fn measure(&mut self, run: &mut Run) -> anyhow::Result<bool> {
         let clock = SystemClock::start();
         let mut began = 0;
@@ -132,7 +124,7 @@ impl Engine<'_> {
                 }
                 run.screen.done();
             }
-            // Assume that the next epoch takes as long as this one.
+            // The next epoch is assumed to take as long as this epoch.
             let now = clock.now_ns();
             let limit = self.plan.limit.map_or(u64::MAX, |limit| limit.as_nanos() as u64);
             let is_late = (now - began) + (now - start) > limit;
@@ -152,14 +144,13 @@ impl Engine<'_> {
         Ok(false)
     }
 
-    /// A copy of `case` that skips the structures that epoch 0 could not build in time.
+    /// Skips the structures that epoch 0 could not build in time.
     fn with_skipped(&self, case: &Case) -> Case {
         let first = self.journal.get(&Case { epoch: 0, ..case.clone() }).filter(|_| case.epoch > 0);
         let structures = first.map_or(&case.structures, |file| &file.case.structures).clone();
         Case { structures, ..case.clone() }
     }
 
-    /// Measures a case and writes the file `out`. If `run.processes` is `Some`, another process does so.
     fn measure_case(&mut self, case: &Case, out: &Path, run: &mut Run, clock: &dyn Clock) -> Result<(), StudyError> {
         let mut progress = |stage: Stage| run.screen.stage(&stage);
         if let Some(options) = run.processes {
@@ -177,7 +168,6 @@ impl Engine<'_> {
         Ok(())
     }
 
-    /// Joins the measured cases of the plan for which `is` returns true.
     fn joined(&self, is: impl Fn(&Case) -> bool) -> JoinedEpochs {
         let files = self.plan.cases.iter().filter(|case| is(case)).filter_map(|case| self.journal.get(case));
         join(files.map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() }).collect())
@@ -189,7 +179,6 @@ impl Engine<'_> {
         Dataset::new(of_all(&all), measured)
     }
 
-    /// Prints the tables of the scene of `case` from the epochs measured so far.
     fn print_scene(&self, case: &Case, is_whole: bool, screen: &mut dyn Screen) -> anyhow::Result<()> {
         let measured = self.joined(|other| other.is_of_scene(case)).measured;
         if measured.is_empty() {
@@ -203,9 +192,7 @@ impl Engine<'_> {
         Ok(())
     }
 
-    /// The outcome of the whole run.
     fn outcome(&mut self, stopped: bool, screen: &mut dyn Screen) -> Result<RunOutcome, JournalError> {
-        // The journal may contain other scenes: show only the requested ones.
         let JoinedEpochs { mut measured, unchecked, failures, .. } = self.joined(|_| true);
         self.failures.extend(failures);
         if !stopped && !measured.is_empty() && measured.iter().all(|own| own.epoch.has_no_rays()) {
@@ -218,7 +205,8 @@ impl Engine<'_> {
         screen.warn(&report.warnings);
         let (mut tables, mut notes, mut foot) = (vec![], vec![], vec![]);
         if is_reported || !dataset.measured.is_empty() {
-            // Exclude failed and interrupted scenes, which lack epochs: means use only the epochs that all scenes have.
+            // Means use only the epochs that all scenes have. So failed and interrupted scenes are left out of the
+            // means.
             let lacks = |case: &Case| {
                 self.plan.cases.iter().any(|other| other.is_of_scene(case) && self.journal.get(other).is_none())
             };

@@ -16,14 +16,13 @@ use crate::request::{TWIN, known_defect};
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::{ErrorCounts, Kind, Validation};
 
-/// One epoch of one scene. It rebuilds all structures and times them in rounds. A round times every structure on every
-/// workload once: the workloads in random order, and the structures of a workload in random order.
+/// An epoch rebuilds all structures and times them in rounds. A round times every structure on every workload once, in
+/// random order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
     pub scene: String,
-    /// [`Scene::hash`](crate::scene::Scene::hash).
     pub scene_hash: String,
-    /// Whether a generated mesh replaces a real one.
+    /// Whether a generated mesh replaces a real mesh.
     pub stand_in: bool,
     pub triangles: usize,
     /// Triangles without area.
@@ -35,106 +34,96 @@ pub struct Epoch {
     pub structures: Vec<Structure>,
 }
 
-/// One structure in one epoch.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Structure {
-    /// The name, with the keys that differ from their defaults.
+    /// The name with the keys that differ from the defaults.
     pub label: String,
-    /// The role in the study, such as [`TWIN`]; empty if it has none.
+    /// The role in the study, for example [`TWIN`], or empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub role: String,
     /// Name in the registry.
     pub name: String,
-    /// The whole configuration.
     pub config: Value,
     pub triangle_test: String,
-    /// The reason why the structure has no times, as a clause; `rays` is then empty.
+    /// The reason why the structure has no times, as a clause. `rays` is then empty.
     pub refused: Option<String>,
     /// Whether wrong hits are the reason for `refused`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// Build time, ns; if it is short, the median of up to three builds. A runner measures its build time itself.
+    /// The median of up to three builds. A runner measures the build time itself.
     pub build_ns: u64,
-    /// Peak memory of the build minus the memory in use before it, bytes. Only epoch 0 counts it; `None` if unknown.
+    /// Peak memory during the build minus memory in use before the build. Only epoch 0 counts memory.
     pub build_peak_bytes: Option<usize>,
-    /// Only for a runner: elapsed time / reported time, the median over its queries. `None` if all were too short.
+    /// Elapsed time / reported time of a runner, as the median over the queries.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outside: Option<f64>,
     pub shape: Shape,
     pub rays: Vec<Rays>,
 }
 
-/// The shape of a finished structure. It is the same in every epoch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Shape {
-    /// Memory of the finished structure, without the mesh.
+    /// Memory without the mesh.
     pub bytes: usize,
     pub inner_nodes: usize,
-    /// Leaves, empty ones included.
+    /// Includes empty leaves.
     pub leaves: usize,
     pub empty_leaves: usize,
-    /// Triangle references in all leaves.
     pub references: usize,
     pub largest_leaf: usize,
     /// Edges from the root to the deepest leaf.
     pub depth: usize,
-    /// See [`TreeShape::sah_cost`].
     pub sah_cost: Option<f64>,
 }
 
-/// One structure on one workload in one epoch.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rays {
     pub workload: String,
-    /// [`Workload::hash`](crate::scene::Workload::hash) of the whole workload.
     pub hash: String,
     pub query: Query,
-    /// Rays of the workload.
+    /// The number of rays of the workload.
     pub all: usize,
-    /// Rays of a sample; fewer than `all` if the structure is slow or the budget is short.
+    /// The number of rays of a sample, at most `all`.
     pub rays: usize,
-    /// Checksum of the hits on rays that every epoch traces: the whole workload, or a fixed subset.
+    /// Checksum of the hits on rays that every epoch traces.
     pub checksum: u64,
-    /// Time of each sample, ns. Samples of two structures with the same index are of the same round.
+    /// The time of each sample. Samples of all structures with the same index are from the same round.
     pub ns: Vec<u64>,
-    /// The times of the same samples on subsets of their rays. Slower structures are timed on these subsets.
+    /// Times of the same samples on the subsets on which slower structures are timed.
     pub parts: Vec<SubsetSamples>,
     /// The reason why there is no time, as a clause.
     pub untimed: Option<String>,
     /// Whether wrong hits are the reason for `untimed`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// The feature of these rays that the structure does not support: `any hit`, `t_min` or `t_max`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub declined: Option<String>,
-    /// The check of the hits; only in epoch 0, because hits do not change between epochs.
+    /// Only in epoch 0, because hits do not change between epochs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checked: Option<Checked>,
     /// Only in epoch 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub counts: Option<RayCounts>,
-    /// Error counts against the exact oracle; only in epoch 0 and with [`Check::Oracle`](super::Check::Oracle).
+    /// Only in epoch 0 and with [`Check::Oracle`](super::Check::Oracle).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorCounts>,
-    /// The time of the slowest ray, ns, if each ray is traced separately. Measured only together with `errors`.
+    /// The time of the slowest ray, if rays are traced one by one. Measured only together with `errors`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest_ns: Option<u64>,
 }
 
-/// The result of the latest check. Before the timing, brute force checks a sample of rays. After the timing, another
-/// tree checks all timed rays; brute force and exact arithmetic judge the rays on which structure and tree differ.
+/// The result of the latest check. Brute force checks a sample of rays before the timing. Another tree checks all timed
+/// rays after the timing.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Checked {
     pub rays: usize,
-    /// Rays with a wrong hit: rounding cannot explain the result.
+    /// Rays with a hit that rounding cannot explain.
     pub errors: usize,
     /// Rays whose hit differs only by the rounding of the triangle test.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub rounded: usize,
-    /// The worst kind of wrong hit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fault: Option<Kind>,
-    /// The ray with the worst hit, and a description of the fault.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub example: Option<(String, String)>,
 }
@@ -159,24 +148,22 @@ impl Checked {
     }
 }
 
-/// Counts over evenly spread rays of a workload, equal on every machine. `None`: the structure does not count it.
+/// Counts over evenly spread rays of a workload. The counts are equal on all machines. A count is `None` if the
+/// structure does not count this event.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RayCounts {
-    /// Counted rays.
     pub rays: usize,
     pub hits: usize,
-    /// Checksum of all results: the bits of `t`, or a miss. Equal for all structures over the exact test.
+    /// Checksum of the bits of all `t`. All structures with the exact triangle test have equal checksums.
     pub distances: u64,
-    /// Triangles tested.
     pub tests: Option<u64>,
-    /// Blocks tested; a block is a group of triangles that are tested at once.
+    /// A block is a group of triangles that are tested at once.
     pub blocks: Option<u64>,
     /// Inner nodes and leaves entered.
     pub steps: Option<u64>,
-    /// Leaves entered.
     pub leaves: Option<u64>,
     pub empty_leaves: Option<u64>,
-    /// Triangles tested for all rays of the workload; only if `Settings::whole_counts` names the structure.
+    /// Counted only if `Settings::whole_counts` names the structure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub whole_tests: Option<u64>,
 }
@@ -190,24 +177,23 @@ impl From<&dyn DynAccel> for Shape {
 }
 
 impl Structure {
-    /// Whether the structure is a runner or has known defects. Its wrong hits then exclude only itself, not the scene.
+    /// Wrong hits of a runner or of a structure with known defects exclude only the structure, not the scene.
     pub fn may_err(&self) -> bool {
         self.name == RUNNER || known_defect(&self.name).is_some()
     }
 
-    /// Whether it is a twin: a second build of a structure of this epoch, for the A/A check.
+    /// A twin is a second build of a structure in the same epoch, for the A/A check.
     pub fn is_twin(&self) -> bool {
         self.role == TWIN
     }
 }
 
 impl Rays {
-    /// Drops the times. `reason` is a clause.
     pub fn drop_times(&mut self, reason: String) {
         *self = Self { untimed: Some(reason), ns: vec![], parts: vec![], rays: 0, checksum: 0, ..self.clone() };
     }
 
-    /// Time per ray of each sample, ns, over its subset of `rays` rays. Empty if this subset was not timed.
+    /// Times of all samples on the subset of `rays` rays. Empty if this subset was not timed.
     pub fn ns_per_ray(&self, rays: usize) -> Vec<f64> {
         let part = self.parts.iter().find(|part| part.rays == rays).map(|part| &part.ns);
         let ns = if rays == self.rays { Some(&self.ns) } else { part };
@@ -216,7 +202,6 @@ impl Rays {
 }
 
 impl RayCounts {
-    /// Divides `n`, one of these counts, by the number of counted rays.
     pub fn per_ray(&self, n: Option<u64>) -> Option<f64> {
         Some(n? as f64 / self.rays.max(1) as f64)
     }
@@ -225,38 +210,34 @@ impl RayCounts {
         self.per_ray(self.tests)
     }
 
-    /// Inner nodes and leaves entered per ray.
     pub fn steps_per_ray(&self) -> Option<f64> {
         self.per_ray(self.steps)
     }
 
-    /// Triangle tests divided by the minimum. The minimum is one test per ray that hits: a structure that knows the hit
-    /// in advance still tests its triangle (Havran, Purgathofer 2003). `None` if no ray hits or no tests are counted.
+    /// The number of triangle tests divided by the minimum. The minimum is one test per ray that hits a triangle
+    /// (Havran, Purgathofer 2003).
     pub fn tests_over_minimum(&self) -> Option<f64> {
         (self.hits > 0).then_some(self.tests? as f64 / self.hits as f64)
     }
 }
 
 impl Epoch {
-    /// The name of the scene in keys and tables.
     pub fn title(&self) -> String {
         scene_name(&self.scene, self.stand_in)
     }
 
-    /// The number of rays of a workload that all timed structures share: the size of the smallest sample.
+    /// All timed structures have times on this number of rays.
     pub fn common_rays(&self, workload: &str) -> usize {
         let rays = self.structures.iter().filter(|structure| structure.refused.is_none()).flat_map(|s| &s.rays);
         let timed = rays.filter(|rays| rays.workload == workload && !rays.ns.is_empty());
         timed.map(|rays| rays.rays).min().unwrap_or(0)
     }
 
-    /// Whether the scene has no rays of the workloads: no structure is refused, but none has rays.
     pub fn has_no_rays(&self) -> bool {
         let is_idle = |structure: &Structure| structure.refused.is_none() && structure.rays.is_empty();
         self.structures.iter().all(is_idle)
     }
 
-    /// One failure for each refused structure, and for each structure and workload without a time; no duplicates.
     pub fn failures(&self) -> Vec<Failure> {
         let scene = self.title();
         let mut failures: Vec<Failure> = vec![];
@@ -274,9 +255,8 @@ impl Epoch {
         each_once(failures)
     }
 
-    /// Checks that every structure has a time on every workload, and that all structures return the same bits of `t`.
-    /// All structures must have the same triangle test. The error names the first structure without a time, the scene
-    /// if it has no rays, or the first two structures that differ.
+    /// Checks that every structure has a time on every workload, and that all `t` are bitwise equal. All structures
+    /// must have the same triangle test.
     pub fn check_complete(&self) -> Result<(), StudyError> {
         if let Some(failure) = self.failures().into_iter().next() {
             return Err(StudyError::Missing { failure: failure.sentence, wrong: failure.wrong });
@@ -287,24 +267,23 @@ impl Epoch {
         self.agree(|_| Some(""))
     }
 
-    /// Checks that all structures over the exact triangle test return the same `t`, bit for bit, on the counted rays.
-    /// Other tests are not compared: a test that rounds may place a hit outside the box of its triangle; one tree then
-    /// finds the hit and another culls it. Runners, and structures with known defects or without a time, are skipped.
-    /// The error names the first two structures that differ.
+    /// Checks that all structures with the exact triangle test return bitwise equal `t`. A test that rounds may place a
+    /// hit outside the box of its triangle. One tree then finds the hit, and another tree culls it. So structures with
+    /// tests that round are not compared.
     pub fn check_agreement(&self) -> Result<(), StudyError> {
         self.agree(|structure| {
             Some(structure.triangle_test.as_str()).filter(|test| *test == Exact::NAME && !structure.may_err())
         })
     }
 
-    /// Checks that all structures of one `group` return the same `t`; a structure without a group is skipped.
+    /// Compares the structures of one `group`. A structure without a group is skipped.
     fn agree<'a>(&'a self, group: impl Fn(&'a Structure) -> Option<&'a str>) -> Result<(), StudyError> {
         let mut seen = BTreeMap::new();
         let all = self.structures.iter().filter(|structure| structure.refused.is_none());
         for (structure, own) in all.filter_map(|structure| Some((structure, group(structure)?))) {
             for rays in structure.rays.iter().filter(|rays| rays.untimed.is_none()) {
                 let Some(counts) = rays.counts else { continue };
-                // Compare only equal numbers of counted rays: slow trees are counted on fewer rays.
+                // Slow trees are counted on fewer rays, so only equal numbers of rays are compared.
                 let known = seen.entry((own, &rays.workload, counts.rays)).or_insert((structure, counts.distances));
                 if known.1 != counts.distances {
                     let (one, other) = (known.0.label.clone(), structure.label.clone());
@@ -321,7 +300,6 @@ impl Epoch {
 pub(crate) mod tests {
     use super::*;
 
-    /// 1000 closest-hit rays of a workload that were counted, but not timed.
     pub fn rays(workload: &str) -> Rays {
         Rays {
             workload: workload.into(),
@@ -343,8 +321,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// An epoch of `structures`: for each, the label, the build time in ns, and the time of each round of 1000 primary
-    /// rays in ns. A repeated label makes a twin.
+    /// Each structure has a label, a build time in ns, and times of rounds of 1000 primary rays in ns. A repeated label
+    /// makes a twin.
     pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str, u64, &[u64])]) -> Epoch {
         let structure = |(place, &(label, build_ns, ns)): (usize, &(&str, u64, &[u64]))| Structure {
             label: label.into(),

@@ -2,7 +2,7 @@ use super::journal::JournalError;
 use crate::accel::BuildError;
 use crate::report::number::plural;
 
-/// The reason why a study, or one of its scenes, cannot continue.
+/// The reason why a study or a single scene cannot continue.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     #[error("{structure} cannot be built over {scene}: {cause}")]
@@ -32,7 +32,7 @@ pub enum StudyError {
         "{structure} on {scene}{}: epochs 0 and {epoch} differ in {what}, so their times are not comparable",
         workload(rays)
     )]
-    Apart { structure: String, scene: String, rays: String, epoch: usize, what: &'static str },
+    EpochsDiffer { structure: String, scene: String, rays: String, epoch: usize, what: &'static str },
     #[error("the process that measures {key} failed: {cause}; rerun with --in-process to see more")]
     Process { key: String, cause: String },
     #[error("{key} cannot be measured: {cause}")]
@@ -43,21 +43,19 @@ pub enum StudyError {
     Journal(#[from] JournalError),
 }
 
-/// The value of `what` in [`StudyError::Apart`] if two epochs differ in their hits.
-pub const ANSWERS: &str = "the hits";
+/// The value of `what` in [`StudyError::EpochsDiffer`] if two epochs differ in hits.
+pub const HITS_DIFFER: &str = "the hits";
 
-/// Names the workload on which two epochs differ; empty if they differ in their structures.
+/// `rays` is empty if the epochs differ in their structures.
 fn workload(rays: &str) -> String {
     if rays.is_empty() { String::new() } else { format!(", {rays} rays") }
 }
 
-/// Advice to name at most `most` structures, which fit into memory together; empty if `most` is 0.
 fn fewer(most: usize) -> String {
     if most == 0 { String::new() } else { format!("at most {}, or ", plural(most, "structure")) }
 }
 
 impl StudyError {
-    /// Converts a build error of `structure` over `scene`.
     pub fn of_build(structure: &str, scene: &str) -> impl FnOnce(BuildError) -> Self {
         move |cause| Self::Build { structure: structure.into(), scene: scene.into(), cause }
     }
@@ -71,11 +69,10 @@ impl StudyError {
         }
     }
 
-    /// Whether wrong hits of a structure are the cause.
     pub fn is_wrong_hit(&self) -> bool {
         matches!(
             self,
-            Self::Apart { what: ANSWERS, .. }
+            Self::EpochsDiffer { what: HITS_DIFFER, .. }
                 | Self::Disagree { .. }
                 | Self::Missing { wrong: true, .. }
                 | Self::Reported { wrong_answer: true, .. }

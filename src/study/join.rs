@@ -1,28 +1,26 @@
 //! Joins the separately measured epochs of a scene into one measurement.
 //!
-//! Only epoch 0 checks hits and counts work, for all epochs. So a scene without epoch 0 is left out.
-//! Epochs belong to one measurement if they agree in structures, rays, hits, numbers of timed rays and of samples.
+//! Only epoch 0 checks hits and counts work. So a scene without epoch 0 is left out.
 
 use super::epoch::Rays;
-use super::error::ANSWERS;
+use super::error::HITS_DIFFER;
 use super::{Epoch, Measured, StudyError};
 use crate::registry::RUNNER;
 use crate::report::words::listed;
 
-/// Cases for a report, and the reasons why other cases are left out.
 #[derive(Debug, Default)]
 pub struct JoinedEpochs {
-    /// The joined cases, in the order of the input.
+    /// In the order of the input.
     pub measured: Vec<Measured>,
-    /// One error per scene whose epochs cannot be joined; its cases are left out.
+    /// One error per scene whose epochs cannot be joined.
     pub failures: Vec<StudyError>,
-    /// One sentence per scene without epoch 0; its cases are left out.
+    /// One sentence per scene without epoch 0.
     pub unchecked: Vec<String>,
     /// One sentence per scene that lacks planned epochs.
     pub missing: Vec<String>,
 }
 
-/// Joins the epochs of each scene. With [`whole`](super::case::Settings::whole), every structure must have all times.
+/// With [`whole`](super::case::Settings::whole), every structure must have all times.
 pub fn join(measured: Vec<Measured>) -> JoinedEpochs {
     let mut scenes: Vec<Vec<(usize, Measured)>> = vec![];
     for own in measured.into_iter().enumerate() {
@@ -44,7 +42,8 @@ pub fn join(measured: Vec<Measured>) -> JoinedEpochs {
         }
         let mut epochs: Vec<&mut Epoch> = scene.iter_mut().map(|(_, own)| &mut own.epoch).collect();
         let agree = if is_whole { Epoch::check_complete } else { Epoch::check_agreement };
-        if let Err(error) = one(&mut epochs).and_then(|()| epochs.iter().try_for_each(|epoch| agree(epoch))) {
+        if let Err(error) = make_consistent(&mut epochs).and_then(|()| epochs.iter().try_for_each(|epoch| agree(epoch)))
+        {
             joined.failures.push(error);
             continue;
         }
@@ -68,20 +67,19 @@ fn lacks(title: &str, missing: &[usize]) -> String {
     format!("{title}: {epochs} {} {are} not measured", listed(&numbers))
 }
 
-/// Makes the epochs of a scene consistent; epoch 0 is the first. An error if they do not belong to one measurement.
-fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
+/// Makes the epochs of one scene consistent. Epoch 0 must be the first.
+fn make_consistent(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
     let title = epochs[0].title();
     for place in 0..epochs[0].structures.len() {
         let structure = epochs[0].structures[place].clone();
         let apart = |epoch: usize, rays: &str, what: &'static str| {
             let (structure, scene) = (structure.label.clone(), title.clone());
-            Err(StudyError::Apart { structure, scene, rays: rays.into(), epoch, what })
+            Err(StudyError::EpochsDiffer { structure, scene, rays: rays.into(), epoch, what })
         };
         let is_other = |epoch: &&&mut Epoch| epoch.structures.get(place).is_none_or(|own| own.label != structure.label);
         if let Some(other) = epochs.iter().find(is_other) {
             return apart(other.epoch, "", "the structures");
         }
-        // A structure that is refused in one epoch is refused in all.
         let refused = epochs.iter().find_map(|epoch| epoch.structures[place].refused.clone());
         if let Some(reason) = refused {
             refuse(epochs, place, &reason);
@@ -105,7 +103,7 @@ fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
             }
             if let Some(other) = differing(|a, b| a.checksum == b.checksum) {
                 if !structure.may_err() {
-                    return apart(other, &first.workload, ANSWERS);
+                    return apart(other, &first.workload, HITS_DIFFER);
                 }
                 refuse(epochs, place, CHANGED);
                 break;
@@ -116,7 +114,7 @@ fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
             if let Some(other) = differing(|a, b| a.rays == b.rays).filter(|_| structure.name != RUNNER) {
                 return apart(other, &first.workload, "the number of timed rays");
             }
-            // A runner's clock chooses the number of rays of each epoch. Keep the largest number that all epochs timed.
+            // The clock of a runner chooses how many rays an epoch times. Keep the largest number that every epoch has.
             let common = common_sizes(epochs, place, kind);
             let Some(&largest) = common.first() else {
                 refuse(epochs, place, UNSTEADY);
@@ -133,14 +131,11 @@ fn one(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Reason to refuse a runner, or a structure with known defects, whose hits change between epochs.
 const CHANGED: &str = "after a rebuild it returns other hits than before: its times are not comparable";
 
-/// Reason to refuse a runner if its epochs have no number of timed rays in common.
 const UNSTEADY: &str = "its speed differs by more than a factor of sixteen between epochs (by its own clock), so no \
                         rays are timed in all of them";
 
-/// Refuses a structure in all epochs. If it is wrong in one epoch, it is wrong in all.
 fn refuse(epochs: &mut [&mut Epoch], place: usize, reason: &str) {
     let wrong = epochs.iter().any(|epoch| epoch.structures[place].wrong);
     for structure in epochs.iter_mut().map(|epoch| &mut epoch.structures[place]) {
@@ -149,7 +144,7 @@ fn refuse(epochs: &mut [&mut Epoch], place: usize, reason: &str) {
     }
 }
 
-/// The numbers of rays on which all epochs time a structure, the largest first.
+/// Numbers of rays on which all epochs time a structure, the largest first.
 fn common_sizes(epochs: &[&mut Epoch], place: usize, kind: usize) -> Vec<usize> {
     let sizes = |epoch: &&mut Epoch| -> Vec<usize> {
         let rays = &epoch.structures[place].rays[kind];

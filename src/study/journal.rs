@@ -1,10 +1,11 @@
-//! The journal of a study: a folder with one file per scene and epoch. A killed run resumes where it stopped, and
-//! several machines can write to one folder without communicating.
+//! The journal of a study is a folder with one file per scene and epoch.
 //!
-//! Each file contains the case, its provenance and its results. It is written atomically and never changed. A file name
-//! that begins with a dot marks an unfinished write and is ignored. The name of a case file contains the case's key and
-//! a digest of settings, build and machine, so one folder can contain cases of different settings. Any process may read
-//! at any time. Any number of jobs of `study plan` may write. Only one run at a time may measure the missing cases.
+//! A killed run resumes where it stopped. Several machines can write to one folder.
+//!
+//! Each file is written atomically and never changed. A file name that begins with a dot marks an unfinished write.
+//! File names contain a digest of settings, build and machine, so files of different settings do not collide. Any
+//! process may read at any time. Any number of jobs of `study plan` may write. Only one run at a time may measure
+//! missing cases.
 
 mod case_file;
 mod error;
@@ -20,29 +21,25 @@ pub use case_file::CaseFile;
 pub use error::JournalError;
 pub use newest::{datasets, newest, of_all};
 
-/// The case files of a folder. [`get`](Self::get) returns only cases that this build has measured on this machine.
 #[derive(Debug)]
 pub struct Journal {
     folder: PathBuf,
-    /// Provenance of this process.
     provenance: Provenance,
     files: Vec<CaseFile>,
-    /// Number of leading `files` to ignore: 0, or with `fresh` the number of files found when the journal was opened.
+    /// The number of leading `files` to ignore. With `fresh`, all files found by `open` are ignored.
     ignored: usize,
-    /// The folder, locked while a run measures into it. The system unlocks it when the process ends for any reason.
+    /// The lock of the folder while a run measures. The system releases the lock when the process ends.
     _lock: Option<File>,
 }
 
 impl Journal {
-    /// Opens the journal in `folder` to measure the missing cases of `cases`, and creates the folder if it is missing.
-    /// With `fresh`, existing cases are measured again: their files stay, and the newest file counts. An error if cases
-    /// are missing while another run is measuring, because two runs would measure the same cases and disturb each
-    /// other's times.
+    /// With `fresh`, all cases are measured again, and the old files stay. Returns an error if cases are missing while
+    /// another run measures. Two runs would disturb each other's times.
     pub fn open(folder: &Path, provenance: Provenance, fresh: bool, cases: &[Case]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        // Take the lock before reading the cases: they then include everything that an earlier run wrote.
+        // The lock comes before reading, so the files include everything that an earlier run wrote.
         let lock = File::open(folder).ok();
-        // Windows and many network file systems cannot lock folders: there, run without a lock.
+        // Windows and many network file systems cannot lock folders. A run then has no lock.
         let is_taken = lock.as_ref().is_some_and(|own| matches!(own.try_lock(), Err(TryLockError::WouldBlock)));
         let files = files(folder)?.iter().map(|path| CaseFile::read(path)).collect::<Result<Vec<_>, _>>()?;
         let ignored = if fresh { files.len() } else { 0 };
@@ -62,7 +59,6 @@ impl Journal {
             .max_by(|a, b| a.provenance.date.cmp(&b.provenance.date))
     }
 
-    /// The path of a new file for the case.
     pub fn place(&self, case: &Case) -> PathBuf {
         let name = file_name(case, &self.provenance);
         let again = (2..).map(|n| format!("{name}-{n}"));
@@ -70,14 +66,13 @@ impl Journal {
         names.find(|path| !path.exists()).expect("there are more numbers than files")
     }
 
-    /// Adds the file at `path`, which was written after the journal was opened.
     pub fn add(&mut self, path: &Path) -> Result<(), JournalError> {
         self.files.push(CaseFile::read(path)?);
         Ok(())
     }
 }
 
-/// The file name of a case without its extension: lower-case letters, digits and hyphens.
+/// The file name without extension, in lower-case letters, digits and hyphens.
 pub fn file_name(case: &Case, provenance: &Provenance) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let words: String = case.key().chars().map(plain).collect();
@@ -86,10 +81,8 @@ pub fn file_name(case: &Case, provenance: &Provenance) -> String {
     format!("{}-{}", name.trim_end_matches('-'), case.digest(&provenance.machine()))
 }
 
-/// The maximum number of characters before the digest.
 const LONGEST: usize = 100;
 
-/// The files of a folder that may be cases, sorted by name.
 pub fn files(folder: &Path) -> Result<Vec<PathBuf>, JournalError> {
     let paths = fs::read_dir(folder).and_then(|all| all.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>());
     let mut paths = paths.map_err(|cause| JournalError::Read { path: folder.into(), cause })?;

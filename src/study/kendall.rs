@@ -1,12 +1,13 @@
-//! Kendall's tau, which measures how well two orders agree.
+//! Kendall's tau measures how well two orders agree.
 
 use std::collections::BTreeMap;
 
 use super::claims::CLAIMS;
 use crate::measure::{Estimate, Rerun, Variance};
 
-/// Kendall's tau-b of points `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945): 1 for the same
-/// order, -1 for the opposite. Couples i > j count if `compared(i, j)`. `None` if x or y is equal in each couple.
+/// Kendall's tau-b of points `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945). The value is 1 for
+/// equal orders and -1 for opposite orders. Pairs with i > j count if `compared(i, j)`. `None` if every compared pair
+/// has equal x, or every compared pair has equal y.
 pub fn kendall(points: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
     let (mut same, mut x_differ, mut y_differ) = (0.0, 0.0, 0.0);
     for i in 0..points.len() {
@@ -21,17 +22,17 @@ pub fn kendall(points: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -
     (x_differ > 0.0 && y_differ > 0.0).then(|| same / libm::sqrt(x_differ * y_differ))
 }
 
-/// The agreement of estimates with an expected order.
 pub struct Order {
-    /// Kendall's tau. The low end of its interval counts uncertain couples as reversed, the high end as ordered.
+    /// Kendall's tau. The low end of the interval counts uncertain pairs as reversed. The high end counts uncertain
+    /// pairs as ordered.
     pub tau: Estimate,
-    /// The significantly reversed couples, as indices: first the estimate expected to be larger, then the smaller one.
+    /// Indices of the significantly reversed pairs. The first estimate of a pair is expected to be larger.
     pub reversed: Vec<[usize; 2]>,
 }
 
 impl Order {
-    /// Tests the order of positive estimates with expected ranks; rank 0 is the largest. Estimates of equal rank are
-    /// not compared. The interval of each comparison is corrected for `looks` times the number of couples.
+    /// Each estimate is positive and has an expected rank. Rank 0 is the largest. Estimates of equal rank are not
+    /// compared. The interval of each comparison is corrected for `looks` times the number of pairs.
     pub fn of(ranked: &[(Estimate, usize)], looks: usize) -> Self {
         let all = || 0..ranked.len();
         let couples = all().flat_map(|i| all().map(move |j| [i, j])).filter(|&[i, j]| ranked[i].1 < ranked[j].1);
@@ -52,9 +53,8 @@ impl Order {
     }
 }
 
-/// The mean tau over scenes. The taus of one scene are averaged first, because they are not independent: all workloads
-/// use the same trees, and a stand-in imitates the real mesh. The interval predicts the mean over as many other scenes;
-/// it is corrected for the number of claims and cut to [-1, 1].
+/// The taus of one scene are averaged first, because all workloads of a scene use the same trees. The interval predicts
+/// the mean over as many other scenes.
 pub fn mean_of_scenes<'a>(taus: impl IntoIterator<Item = (&'a str, f64)>) -> Option<Estimate> {
     let mut scenes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for (scene, tau) in taus {
@@ -74,7 +74,6 @@ mod tests {
         let all = |_: usize, _: usize| true;
         assert_eq!(kendall(&[(1.0, 10.0), (2.0, 20.0), (3.0, 30.0)], all), Some(1.0));
         assert_eq!(kendall(&[(1.0, 30.0), (2.0, 20.0), (3.0, 10.0)], all), Some(-1.0));
-        // Five of six couples are in order.
         let one_off = [(1.0, 1.0), (2.0, 3.0), (3.0, 2.0), (4.0, 4.0)];
         assert!((kendall(&one_off, all).unwrap() - 4.0 / 6.0).abs() < 1e-12);
         assert_eq!(kendall(&[(1.0, 1.0), (1.0, 2.0)], all), None);
@@ -97,14 +96,12 @@ mod tests {
             let ranked = estimates.map(|x| Estimate::between(x, x / 1.1, x * 1.1));
             Order::of(&[(ranked[0], 0), (ranked[1], 0), (ranked[2], 1), (ranked[3], 2)], 1)
         };
-        // The first two estimates have equal rank, so five couples are compared.
+        // The first two estimates have equal rank, so five pairs are compared.
         let right = of([8.0, 9.0, 4.0, 2.0]);
         assert_eq!(right.tau, Estimate::exact(1.0));
-        // One couple is significantly reversed.
         let one_off = of([8.0, 9.0, 2.0, 4.0]);
         assert_eq!(one_off.reversed, [[2, 3]]);
         assert!((one_off.tau.estimate - 0.6).abs() < 1e-12 && (one_off.tau.high().unwrap() - 0.6).abs() < 1e-12);
-        // The order of one couple is uncertain.
         let open = of([8.0, 9.0, 2.02, 2.0]);
         assert_eq!((open.tau.estimate, open.tau.high()), (1.0, Some(1.0)));
         assert!((open.tau.low().unwrap() - 0.6).abs() < 1e-12 && open.reversed.is_empty());

@@ -1,4 +1,4 @@
-//! All epochs of one structure on one workload of one scene: the input of tables, curves and comparisons of runs.
+//! All epochs of one structure on one workload of one scene.
 
 use serde_json::Value;
 
@@ -10,14 +10,12 @@ use crate::report::words::scene_name;
 use crate::report::{Cell, Table};
 use crate::request::is_obvhs;
 
-/// One structure on one workload of one scene; see [`Epoch`](super::Epoch) for the fields that it copies. An unknown
-/// value is `None`. Unknown numbers of rays and hits are 0.
+/// [`Epoch`](super::Epoch) documents the copied fields. Unknown numbers of rays and hits are 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
     pub scene: String,
     pub scene_hash: String,
     pub triangles: usize,
-    /// Triangles without area.
     pub degenerate: usize,
     pub stand_in: bool,
     /// Name in the registry.
@@ -31,41 +29,38 @@ pub struct Measurement {
     pub workload_hash: String,
     /// Rays of the whole workload.
     pub workload_rays: usize,
-    /// Rays of one timed sample; 0 without a time.
+    /// Rays of one sample, or 0 without a time.
     pub rays: usize,
-    /// Whether a sample has fewer rays than the workload; also `true` without a time.
+    /// Whether a sample has fewer rays than the workload. Also true without a time.
     pub sampled: bool,
     pub parts: Vec<SubsetSamples>,
     /// All zero or `None` if not counted.
     pub counts: RayCounts,
-    /// Checksum of the hits on the rays that all epochs trace; `None` without a time.
+    /// Checksum of the hits on the rays that all epochs trace.
     pub hit_checksum: Option<u64>,
-    /// Median build time over the epochs, ns.
+    /// The median over the epochs.
     pub build_ns: u64,
-    /// The build time of each epoch, ns.
     pub build_samples_ns: Vec<u64>,
     pub build_peak_bytes: Option<usize>,
-    /// Median time of a sample, ns; `None` without a time.
+    /// The median time of a sample.
     pub trace_ns: Option<f64>,
-    /// The number of epochs. All epochs have the same number of samples; `samples_ns` lists them epoch by epoch.
+    /// All epochs have the same number of samples. `samples_ns` lists the samples epoch by epoch.
     pub epochs: usize,
     pub samples_ns: Vec<f64>,
-    /// The samples and builds of the twin. `None` without a twin, or if the twin was timed on another number of rays.
+    /// `None` without a twin, or if the twin was timed on another number of rays.
     pub twin_samples_ns: Option<Vec<f64>>,
     pub twin_builds_ns: Option<Vec<u64>>,
     pub mrays_per_s: Option<f64>,
     pub shape: Shape,
     pub declined: Option<String>,
-    /// Rays checked in epoch 0; see [`Checked`](super::epoch::Checked).
+    /// Rays checked in epoch 0.
     pub checked_rays: usize,
-    /// Rays with a wrong hit that no rounding explains.
+    /// Rays with a hit that rounding cannot explain.
     pub wrong_hits: usize,
 }
 
-/// A column: its name, and its cell for a measurement.
 pub type MeasurementColumn = (&'static str, fn(&Measurement) -> Cell);
 
-/// Columns of CSV tables.
 pub const COLUMNS: [MeasurementColumn; 36] = [
     ("scene", |own| (&own.scene).into()),
     ("scene_hash", |own| (&own.scene_hash).into()),
@@ -105,7 +100,7 @@ pub const COLUMNS: [MeasurementColumn; 36] = [
     ("structure_errors", |own| own.wrong_hits.into()),
 ];
 
-/// Appends the columns `names` to `table`, whose rows are the measurements `rows`, in order.
+/// The rows of `table` must be `rows`, in order.
 pub fn push_columns(table: &mut Table, names: &[&str], rows: &[&Measurement]) {
     for name in names {
         let (_, cell) = COLUMNS.iter().find(|(known, _)| known == name).expect("a measurement has such a column");
@@ -118,13 +113,11 @@ pub fn is_native_obvhs(own: &Measurement) -> bool {
     is_obvhs(&own.structure) && !own.label.contains("test=")
 }
 
-/// The measurements of all scenes, in the order of scenes, structures and workloads. A twin has no separate
-/// measurement: its samples are in the measurement of its structure. A refused structure has no measurement.
+/// The samples of a twin are in the measurement of its structure. A refused structure has no measurement.
 pub fn measurements(dataset: &Dataset) -> Vec<Measurement> {
     dataset.scenes().iter().flat_map(of_scene).collect()
 }
 
-/// The measurements of one scene.
 pub fn of_scene(scene: &SceneEpochs) -> Vec<Measurement> {
     let first = scene.epochs[0];
     let mut all = vec![];
@@ -142,7 +135,7 @@ fn rays<'a>(scene: &'a SceneEpochs, place: usize, workload: usize) -> impl Itera
     scene.epochs.iter().filter_map(move |epoch| epoch.structures.get(place)?.rays.get(workload))
 }
 
-/// Every sample of a structure on a workload, nanoseconds.
+/// Times of all samples, ns.
 pub fn samples(scene: &SceneEpochs, place: usize, workload: usize) -> Vec<f64> {
     rays(scene, place, workload).flat_map(|rays| &rays.ns).map(|&ns| ns.max(1) as f64).collect()
 }
@@ -157,7 +150,7 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
     let samples_ns = samples(scene, place, workload);
     let trace_ns = median(&samples_ns);
     let timed = trace_ns.is_some();
-    // A runner and its twin may be timed on different numbers of rays: ignore the twin then.
+    // A runner and its twin may be timed on different numbers of rays. Such a twin is ignored.
     let twin = twin.filter(|&twin| timed && rays(scene, twin, workload).all(|own| own.rays == first.rays));
     let twin_samples = twin.map(|twin| samples(scene, twin, workload)).filter(|samples| !samples.is_empty());
     let (checked_rays, wrong_hits) = first.checked.as_ref().map_or((0, 0), |own| (own.rays, own.errors));
@@ -208,12 +201,10 @@ fn parts(scene: &SceneEpochs, place: usize, workload: usize) -> Vec<SubsetSample
     all
 }
 
-/// The A/A noise of trace times, from the ratio of each structure to its twin.
 pub fn trace_noise(measurements: &[Measurement]) -> AaNoise {
     AaNoise::new(&measurements.iter().filter_map(Measurement::speed_against_twin).collect::<Vec<_>>())
 }
 
-/// The A/A noise of build times, from one structure and its twin on each scene.
 pub fn build_noise(measurements: &[Measurement]) -> AaNoise {
     let of = |own: &Measurement| {
         let log = |ns: &u64| libm::log((*ns).max(1) as f64);
@@ -225,7 +216,6 @@ pub fn build_noise(measurements: &[Measurement]) -> AaNoise {
 }
 
 impl Measurement {
-    /// The name of the scene in tables.
     pub fn scene_title(&self) -> String {
         scene_name(&self.scene, self.stand_in)
     }
@@ -234,12 +224,10 @@ impl Measurement {
         self.shape.references as f64 / self.triangles.max(1) as f64
     }
 
-    /// Whether the structure has wrong hits and therefore no time.
     pub fn is_disqualified(&self) -> bool {
         self.wrong_hits > 0
     }
 
-    /// The times on `rays` rays, ns: of whole samples or of a subset. `None` if no subset of this size was timed.
     fn samples_of(&self, rays: usize) -> Option<Vec<f64>> {
         if rays == self.rays {
             return Some(self.samples_ns.clone());
@@ -248,26 +236,23 @@ impl Measurement {
         Some(part.ns.iter().map(|&ns| ns.max(1) as f64).collect())
     }
 
-    /// Median time per ray, ns, over `rays` rays: a whole sample or a subset. `None` if none of this size was timed.
+    /// Median time per ray on `rays` rays. `None` if no sample or subset of this size was timed.
     pub fn ns_per_ray_of(&self, rays: usize) -> Option<f64> {
         Some(median(&self.samples_of(rays)?)? / rays as f64)
     }
 
-    /// ln(time of `other` / time of `self`), by epoch and round. Both times are on the rays of the smaller sample.
-    /// `None` if one has no time, or if epochs, workload or rounds differ.
+    /// ln(time of `other` / time of `self`), by epoch and round. The times are on the rays of the smaller sample.
     pub fn speed_against(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
         let alike = self.epochs == other.epochs && self.workload_hash == other.workload_hash;
         let rays = self.rays.min(other.rays);
         if alike { self.ratios(&other.samples_of(rays)?, &self.samples_of(rays)?) } else { None }
     }
 
-    /// ln(time of the twin / time of `self`), by epoch and round. `None` without a twin.
+    /// ln(time of the twin / time of `self`), by epoch and round.
     pub fn speed_against_twin(&self) -> Option<Vec<Vec<f64>>> {
         self.ratios(self.twin_samples_ns.as_ref()?, &self.samples_ns)
     }
 
-    /// ln(`numerator` / `denominator`) by epoch and round. `None` if the numbers of samples differ, if they are not a
-    /// multiple of the number of epochs, or if a time is 0.
     fn ratios(&self, numerator: &[f64], denominator: &[f64]) -> Option<Vec<Vec<f64>>> {
         let is_whole = !denominator.is_empty() && self.epochs > 0 && denominator.len().is_multiple_of(self.epochs);
         let is_positive = numerator.iter().chain(denominator).all(|&time| time > 0.0);
@@ -275,7 +260,7 @@ impl Measurement {
         are_pairs.then(|| log_ratios(numerator, denominator, self.epochs))
     }
 
-    /// ln(ns per ray) of each epoch, the median over its rounds. `None` without a time.
+    /// ln(ns per ray), as the median over the rounds of each epoch.
     pub fn log_paces(&self) -> Option<Vec<f64>> {
         let rounds = (self.samples_ns.len() / self.epochs.max(1)).max(1);
         let of_epoch = |ns: &[f64]| median(&ns.iter().map(|&ns| libm::log(ns / self.rays as f64)).collect::<Vec<_>>());
@@ -295,7 +280,6 @@ pub(crate) mod tests {
     use crate::request::is_obvhs;
     use crate::triangle::{Exact, TriangleTest};
 
-    /// A measurement of the structure `label` on a workload: samples of 500 rays in `epochs` epochs.
     pub fn example(label: &str, workload: &str, samples_ns: &[f64], epochs: usize) -> Measurement {
         let trace_ns = median(samples_ns);
         Measurement {

@@ -1,7 +1,7 @@
-//! Studies: each asks a question, plans cases and reports on the measurements.
+//! Studies plan cases and report on the measurements.
 //!
-//! A [`Study`] is a value: the functions `plan` and `report`, and their options. A study does not measure. `engine`
-//! measures the planned cases that the journal lacks, one [`Case`] per process, and passes the [`Dataset`] to `report`.
+//! A [`Study`] does not measure. `engine` measures the planned cases that the journal lacks, and passes the [`Dataset`]
+//! to `report`.
 
 pub mod accuracy;
 pub mod attribution;
@@ -47,37 +47,36 @@ pub use screen::{Screen, Stage};
 pub use status::Status;
 pub use verdict::Verdict;
 
-/// A question, its plan and its report.
 pub struct Study {
     /// The name of the subcommand and of the journal folder.
     pub name: &'static str,
-    /// The help text and the title in reports: one line.
+    /// The help text and the title in reports, one line.
     pub question: &'static str,
-    /// The arguments with which `study all` runs the study.
     pub presets: Presets,
-    /// The options of the study. The only positional arguments are scenes.
+    /// The only positional arguments are scenes.
     pub options: fn() -> Command,
-    /// Plans the cases without measuring them; an error if the options name something that cannot be measured.
+    /// Returns an error if the options name something that cannot be measured.
     pub plan: fn(&ArgMatches, &Registry) -> anyhow::Result<Plan>,
-    /// A pure function of the measurements and the options; `sahara report` passes the default options.
+    /// A pure function. `sahara report` passes the default options.
     pub report: fn(&Dataset, &ArgMatches) -> Report,
 }
 
-/// The arguments with which `study all` runs a study: scenes, then options. `study all SCENE..` replaces the scenes.
+/// The arguments with which `study all` runs a study. Scenes come before options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Presets {
     pub full: &'static str,
-    /// The arguments of `study all --quick`: a run takes a few minutes.
+    /// For `study all --quick`, a run of a few minutes.
     pub quick: &'static str,
 }
 
 impl Study {
-    /// Parses the arguments `words`.
     pub fn matches<W: AsRef<OsStr>>(&self, words: &[W]) -> Result<ArgMatches, clap::Error> {
         (self.options)().no_binary_name(true).try_get_matches_from(words.iter().map(OsString::from))
     }
 
-    /// The default options. Panics if an argument is required.
+    /// # Panics
+    ///
+    /// If an argument is required.
     pub fn defaults(&self) -> ArgMatches {
         self.matches::<OsString>(&[]).unwrap_or_else(|error| panic!("study {}: {error}", self.name))
     }
@@ -87,21 +86,19 @@ impl Study {
         (self.options)().get_positionals().next().is_some()
     }
 
-    /// The arguments in `preset`, one of the [presets](Self::presets). If `scenes` is not empty, it replaces the scenes
-    /// in `preset`. A study that accepts no scenes ignores `scenes`.
+    /// If `scenes` is not empty, it replaces the scenes in `preset`. A study that accepts no scenes ignores `scenes`.
     pub fn preset(&self, preset: &str, scenes: &[OsString]) -> Vec<OsString> {
         let scenes = if self.names_scenes() { scenes } else { &[] };
         let options = preset.split_whitespace().skip_while(|word| !scenes.is_empty() && !word.starts_with('-'));
         scenes.iter().cloned().chain(options.map(OsString::from)).collect()
     }
 
-    /// The command that runs the study with its journal in `runs`; `sahara report` reads this folder.
+    /// `sahara report` reads the folder `runs`.
     pub fn command_line(&self) -> String {
         format!("sahara study {} --dir runs", self.name)
     }
 }
 
-/// Studies, in the order of the page.
 pub struct Studies {
     list: Vec<Study>,
 }
@@ -111,7 +108,6 @@ impl Studies {
         Self { list: vec![] }
     }
 
-    /// The studies of this crate. To add a study, add a line.
     pub fn builtin() -> Self {
         Self::empty()
             .with(attribution::STUDY)
@@ -121,8 +117,9 @@ impl Studies {
             .with(replicate::STUDY)
     }
 
-    /// Adds a study. Panics if its name is empty, is taken, is `all` or `plan`, or contains other characters than
-    /// lower-case letters, digits and hyphens.
+    /// # Panics
+    ///
+    /// If the name is taken or reserved, or contains other characters than lower-case letters, digits and hyphens.
     pub fn with(mut self, study: Study) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let name = study.name;

@@ -11,7 +11,7 @@ use crate::report::words::each_once;
 use crate::request::{SceneRequest, StructureRequest, ViewArgs, WorkloadRequest, named_notes};
 use crate::scene::Scene;
 
-/// The cases of a run, in the order in which they are measured.
+/// The cases are measured in order.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
     pub cases: Vec<Case>,
@@ -19,22 +19,20 @@ pub struct Plan {
     pub notes: Vec<String>,
     /// Printed before the measurement.
     pub warnings: Vec<String>,
-    /// Files that the study reads: no output may replace them.
+    /// Files that the study reads. No output may replace these files.
     pub inputs: Vec<PathBuf>,
-    /// Time limit of a scene. An epoch that would probably exceed it is not started. `None`: no limit.
+    /// Time limit of a scene. An epoch that would probably exceed the limit is not started.
     pub limit: Option<Duration>,
     /// Whether the journal is kept in the folder `runs` by default.
     pub keep_journal: bool,
 }
 
-/// One scene of a plan.
 pub struct PlannedScene {
-    /// Epoch 0 of the scene. [`Plan::by_epoch`] sets its study and adds the other epochs.
+    /// Epoch 0 of the scene. [`Plan::by_epoch`] sets the study and adds all later epochs.
     pub case: Case,
 }
 
 impl PlannedScene {
-    /// A scene with its default view and without labels.
     pub fn new(
         (word, scene): &(impl AsRef<OsStr>, Scene),
         structures: &[StructureRequest],
@@ -56,7 +54,6 @@ impl PlannedScene {
         Self { case }
     }
 
-    /// The same scene with a label.
     pub fn labelled(mut self, name: &str, value: impl Into<String>) -> Self {
         self.case.labels.insert(name.into(), value.into());
         self
@@ -64,7 +61,7 @@ impl PlannedScene {
 }
 
 impl Plan {
-    /// All epochs of `scenes`, epoch 0 of all scenes first. The journal is kept.
+    /// Epoch 0 of all scenes comes first.
     pub fn by_epoch(study: &str, scenes: &[PlannedScene]) -> Self {
         let most = scenes.iter().map(|planned| planned.case.epochs).max().unwrap_or(0);
         let of_epoch = |epoch| {
@@ -74,7 +71,7 @@ impl Plan {
         Self { cases: (0..most).flat_map(of_epoch).collect(), keep_journal: true, ..Self::default() }
     }
 
-    /// The same plan, scene by scene: the tables of a scene are ready before the next scene begins.
+    /// Measures scene by scene, so the tables of a scene are ready before the next scene begins.
     pub fn by_scene(mut self) -> Self {
         let scene = |case: &Case| Case { epoch: 0, ..case.clone() }.key();
         let order = each_once(self.cases.iter().map(scene));
@@ -82,7 +79,6 @@ impl Plan {
         self
     }
 
-    /// The same plan with the notes and warnings of its scenes.
     pub fn noting<'a>(mut self, scenes: impl IntoIterator<Item = &'a Scene> + Clone) -> Self {
         self.notes.extend(named_notes(scenes.clone(), |scene| &scene.notes));
         self.warnings.extend(named_notes(scenes, |scene| &scene.warnings));

@@ -1,12 +1,12 @@
 //! Measures a case in a separate process.
 //!
-//! Only samples from several processes show how much the memory layout changes times
+//! Samples from several processes show how the memory layout changes times
 //! ([`interval`](mod@crate::measure::interval)).
 //!
-//! A run or the scheduler of a cluster starts this program with `--case JSON --out FILE`. The process measures the case
-//! and writes the file. With `--listen` it reports its progress to a run: one marked line of JSON per message on
-//! standard output. At each stage it waits until the run has replied, so the run is idle while the process takes times.
-//! All other lines are output of structures; the run copies them to standard error.
+//! A run or the scheduler of a cluster starts this program with `--case JSON --out FILE`. With `--listen`, the process
+//! writes messages to standard output, each as a marked line of JSON. The process waits for a reply to each stage
+//! message, so the run is idle during the timing. All other lines are output of structures. The run copies these lines
+//! to standard error.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
@@ -25,13 +25,11 @@ use super::{Case, Screen, Stage, StudyError};
 use crate::measure::{Provenance, SystemClock, process_group, program};
 use crate::registry::Registry;
 
-/// Names of the options with which a process measures a case.
 pub const CASE: &str = "case";
 pub const OUT: &str = "out";
 pub const LISTEN: &str = "listen";
 pub const CORES: &str = "cores";
 
-/// A message of a process.
 #[derive(Serialize, Deserialize)]
 enum Message<'a> {
     Stage(#[serde(borrow)] Stage<'a>),
@@ -41,8 +39,8 @@ enum Message<'a> {
 /// The prefix of a message line.
 const MARK: &str = "\u{1e}case ";
 
-/// Starts a process that measures a case and writes the file `out`. The new process receives the `options` of this
-/// process, such as the instruction level. Its threads are bound to `cores`, if the cores are known.
+/// `options` are options of this process that the new process receives, such as the instruction level. The threads of
+/// the new process are bound to `cores`.
 pub fn measure_apart(
     options: &[OsString],
     case: &Case,
@@ -58,7 +56,7 @@ pub fn measure_apart(
     let cores = cores.map(|cores| cores.iter().map(ToString::to_string).collect::<Vec<_>>().join(","));
     command.args(cores.map(|cores| format!("--{CORES}={cores}")));
     process_group::lead_process_group(&mut command);
-    // Runners write temporary files. Put them into a folder that is removed even if the process is killed.
+    // Runners write temporary files. This folder is removed even if the process is killed.
     let has_programs = case.structures.iter().any(|own| own.runner.is_some());
     let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };
     command.envs(scratch.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder.path()))));
@@ -71,7 +69,7 @@ pub fn measure_apart(
         let line = line.map_err(|cause| failure(cause.to_string()))?;
         let line = String::from_utf8_lossy(&line);
         let Some((own, message)) = line.split_once(MARK) else {
-            crate::output::tell(&line);
+            crate::output::print_message(&line);
             continue;
         };
         let _ = write!(io::stderr(), "{own}");
@@ -81,10 +79,10 @@ pub fn measure_apart(
                 return Err(StudyError::Reported { sentence, of_one_scene, wrong_answer });
             }
         }
-        // Ignore an error: if the process has already ended, its last message or exit status is reported.
+        // Writing fails if the process has ended. The last message or exit status is then reported.
         let _ = writeln!(input);
     }
-    // Poll, and lock only briefly: another thread needs the lock to end the process.
+    // Another thread needs the lock to end the process, so this loop locks only briefly.
     let status = loop {
         if let Some(status) = locked(&child.0).try_wait().map_err(|cause| failure(cause.to_string()))? {
             break status;
@@ -103,7 +101,6 @@ struct Guard(Arc<Mutex<Child>>);
 /// The process that was started last.
 static LAST: Mutex<Weak<Mutex<Child>>> = Mutex::new(Weak::new());
 
-/// Whether [`end`] was called.
 static ENDED: AtomicBool = AtomicBool::new(false);
 
 fn locked<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
@@ -123,14 +120,13 @@ impl Guard {
 
 impl Drop for Guard {
     fn drop(&mut self) {
-        // Kill the process if it has not ended: this run no longer listens to it.
         let mut child = locked(&self.0);
         process_group::end(&mut child);
         let _ = child.wait();
     }
 }
 
-/// Ends the measuring process, if any, and every later one: the run then sees a process that ended without a result.
+/// Ends the measuring process and every later process. The run then sees a process that ended without a result.
 pub fn end() {
     ENDED.store(true, Ordering::SeqCst);
     if let Some(child) = locked(&LAST).upgrade() {
@@ -138,9 +134,8 @@ pub fn end() {
     }
 }
 
-/// Measures a case, writes the file `out` and returns `None`. If the file already contains the case, keeps the file and
-/// returns a message. An error if the file cannot be written or has other content, if the measurement fails, or if
-/// there are fewer cores than threads and no user sees warnings. After an error the file is unchanged.
+/// Returns a message if the file `out` already contains the case, and `None` after a measurement. After an error, the
+/// file is unchanged.
 pub fn measure_into(
     case: &Case,
     out: &Path,
@@ -159,7 +154,8 @@ pub fn measure_into(
     let prepared = Prepared::new(case, registry, None)?;
     let command = case.command.clone();
     let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(&prepared.threads) };
-    // An error, not a warning: nobody reads the logs of all jobs, and an existing file is not measured again.
+    // Nobody reads the logs of all jobs, and an existing file is not measured again. So this is an error, not a
+    // warning.
     if let Some(cause) = provenance.too_many_threads().filter(|_| !screen.is_watched()) {
         return Err(StudyError::Case { key: case.key(), cause }.into());
     }
@@ -173,8 +169,8 @@ pub fn measure_into(
     check_same().map(|()| Some("was written by another process in the meantime: its case is kept."))
 }
 
-/// Measures a case like [`measure_into`], and reports the progress and any failure to the listening run. This process
-/// ends when the run ends, because it would disturb the next run. An error if no run listens.
+/// Like [`measure_into`], but reports progress and failure to the listening run. A process that outlives the run would
+/// disturb the next run, so this process ends with the run.
 pub fn measure_for_run(case: &Case, out: &Path, registry: &Registry, watch: &BuildWatch) -> io::Result<()> {
     process_group::end_with_parent();
     let Err(error) = measure_into(case, out, registry, watch, &mut ListeningRun) else { return Ok(()) };
@@ -193,7 +189,7 @@ impl Screen for ListeningRun {
         let reply =
             say(&Message::Stage(stage.clone())).and_then(|()| io::stdin().lock().read_until(b'\n', &mut vec![]));
         if !matches!(reply, Ok(1..)) {
-            // The run has ended: exit, because this process would disturb the next run.
+            // Without a reply, the run has ended.
             std::process::exit(1);
         }
     }
@@ -210,8 +206,7 @@ fn say(message: &Message) -> io::Result<()> {
     out.flush()
 }
 
-/// Watches the builds of `case`, which a process with the arguments `args` measures. If a build takes too long, the
-/// process starts itself again without that structure, because no code in it can interrupt a builder.
+/// If a build takes too long, the process starts again without the structure. No thread can interrupt a builder.
 pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
     let Some(limit) = case.settings.build_limit_s else { return BuildWatch::default() };
     let case = case.clone();
@@ -228,12 +223,11 @@ pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
     BuildWatch::new(Duration::from_secs_f64(limit), again)
 }
 
-/// Replaces this process by `command`.
 #[cfg(unix)]
 fn replace(mut command: Command) {
     use std::os::unix::process::CommandExt;
     let cause = command.exec();
-    crate::output::tell_error(format_args!("this program cannot be started again: {cause}"));
+    crate::output::print_error(format_args!("this program cannot be started again: {cause}"));
     std::process::exit(1);
 }
 

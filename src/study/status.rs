@@ -5,27 +5,24 @@ use serde::{Deserialize, Serialize};
 use crate::report::Failure;
 use crate::request::known_defect;
 
-/// The result of a command; it determines the exit status.
+/// The exit status of a command depends on this result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     Right,
-    /// A structure has wrong hits.
     Wrong,
-    /// A measurement failed; the reason has been printed.
+    /// A measurement failed. The reason has been printed.
     Failed,
-    /// A structure could not be built or panicked; all other structures are right. In a gate: results are missing.
+    /// A structure could not be built or panicked. In a gate, results are missing.
     Refused,
-    /// A structure became slower.
     Regression,
-    /// The samples are inconclusive: a structure may have become slower.
+    /// The samples are inconclusive.
     Undecided,
-    /// The user interrupted the run before all cases were measured.
     Interrupted,
 }
 
 impl Status {
-    /// The status that follows from `failures`. Wrong hits of a structure with known defects do not count.
+    /// Wrong hits of a structure with known defects do not count.
     pub fn of(failures: &[Failure]) -> Self {
         if failures.iter().any(|failure| failure.wrong && known_defect(&failure.structure).is_none()) {
             Self::Wrong
@@ -36,7 +33,7 @@ impl Status {
         }
     }
 
-    /// The status of two runs: wrong takes precedence over failed, failed over refused.
+    /// Wrong takes precedence over failed, and failed over refused.
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Right, other) => other,

@@ -8,7 +8,6 @@ use super::*;
 use crate::measure::Provenance;
 use crate::report::{Block, Report, Table};
 
-/// Three scenes of two epochs. The report has one table per scene, and one for all scenes together.
 const TINY: Study = Study {
     name: "tiny",
     question: "What becomes of a run in which scenes fail?",
@@ -30,7 +29,7 @@ fn plan() -> Plan {
     Plan { cases: cases.map(|(scene, epoch)| case(scene, epoch, &["x"])).collect(), ..Plan::default() }
 }
 
-/// Writes all cases except `without` into the journal, as if they were measured. `change` edits their epochs.
+/// Writes all cases except `without` into the journal, after an edit by `change`.
 fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Case, &mut Epoch)) {
     let provenance = Provenance { process_per_epoch: false, ..Provenance::of(&crate::measure::Threads::unstarted(1)) };
     let journal = journal::Journal::open(&folder.join("tiny"), provenance.clone(), false, &[]).unwrap();
@@ -45,7 +44,6 @@ fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Cas
     }
 }
 
-/// The titles of the tables that are shown during a run.
 #[derive(Default)]
 struct RecordingScreen {
     titles: Vec<String>,
@@ -75,10 +73,12 @@ fn failing_scenes_are_reported_and_left_out_of_means() {
     measured(folder.path(), &[("b", 1)], other);
     let mut screen = RecordingScreen::default();
     let outcome = outcome(folder.path(), &mut screen);
-    let told: Vec<String> = outcome.failures.iter().map(ToString::to_string).collect();
+    let sentences: Vec<String> = outcome.failures.iter().map(ToString::to_string).collect();
     assert!(
-        told.len() == 2 && told[0].contains("b epoch 1") && told[1].contains("x on c, primary rays: epochs 0 and 1"),
-        "{told:?}"
+        sentences.len() == 2
+            && sentences[0].contains("b epoch 1")
+            && sentences[1].contains("x on c, primary rays: epochs 0 and 1"),
+        "{sentences:?}"
     );
     assert_eq!(outcome.status, Status::Wrong, "wrong hits take precedence over failed measurements");
     // The table of b shows its only epoch. No mean includes b.

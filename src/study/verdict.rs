@@ -8,11 +8,10 @@ use crate::validate::{Kind, Validation};
 /// The outcome over all checked rays of a structure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// Rays checked.
     pub rays: u64,
-    /// Rays with a wrong hit that no rounding explains.
+    /// Rays with a hit that rounding cannot explain.
     pub wrong: u64,
-    /// Rays with a hit that differs from the exact hit only by the rounding of the triangle test.
+    /// Rays with a hit that differs only by the rounding of the triangle test.
     #[serde(default)]
     pub rounded: u64,
     /// The worst kind of wrong hit.
@@ -32,7 +31,6 @@ impl From<&Validation> for Verdict {
 }
 
 impl Verdict {
-    /// The verdict on these rays and on the rays of `other`.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         let fault = self.fault.into_iter().chain(other.fault).min();
@@ -44,7 +42,6 @@ impl Verdict {
         }
     }
 
-    /// One sentence about the structure `name`.
     pub fn sentence(self, name: &str) -> String {
         let all = plural(self.rays as usize, "ray");
         let of = |rays: u64| format!("{} of {all}", count(rays));
@@ -64,7 +61,7 @@ impl Verdict {
     }
 }
 
-/// The words for a kind of wrong hits: the behaviour of the structure, and the cause.
+/// Returns words for the behaviour of the structure and for the cause.
 fn fault(kind: Kind) -> (&'static str, &'static str) {
     const TREE: &str = "the tree is wrong";
     const EITHER: &str = "the tree or its triangle test is wrong";

@@ -1,4 +1,6 @@
-//! Adversarial rays, which are likely to expose errors of traversals. A seed gives the same rays on every machine.
+//! Generates rays that are likely to expose errors of traversals.
+//!
+//! A seed gives the same rays on every machine.
 
 use glam::Vec3;
 
@@ -12,7 +14,7 @@ named_enum! {
     /// A group of adversarial rays. Each stratum exposes different errors, so results of strata are never pooled.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Stratum {
-        /// Random rays towards points in the box of the mesh. Every structure should handle them.
+        /// Random rays towards points in the box of the mesh.
         Random = "random",
         /// Through a vertex.
         Vertices = "vertices",
@@ -20,30 +22,29 @@ named_enum! {
         Edges = "edges",
         /// Axis-parallel directions with zeros of both signs. Origins often share two coordinates with vertices.
         AxisParallel = "axis-parallel",
-        /// In the plane of a face of a box: the box of the mesh or of a triangle.
+        /// In the plane of a face of the box of the mesh or of a triangle.
         FacePlanes = "face-planes",
         /// From a vertex.
         FromVertices = "from-vertices",
         /// From a point of a triangle.
         FromSurface = "from-surface",
-        /// From a point with likely split positions as coordinates: eighths of the box, middles and corners of
-        /// triangles.
+        /// From a point with likely split positions as coordinates.
         FromSplits = "from-splits",
         /// Nearly in the plane of a triangle.
         Grazing = "grazing",
-        /// Along diagonals: all components have the same magnitude, or one is +0.0 or -0.0.
+        /// Along diagonals. One component may be +0.0 or -0.0.
         Diagonals = "diagonals",
-        /// Two components nearly zero: 1e-9, 1e-30 or denormal.
+        /// Two components are nearly zero or denormal.
         NearlyAxis = "nearly-axis",
-        /// Directions 1e-30 to 1e30 long.
+        /// Directions with lengths from 1e-30 to 1e30.
         Lengths = "lengths",
         /// Origins at a distance of 1e3 to 1e8 box sizes.
         FarOrigins = "far-origins",
-        /// From a point very near a triangle: hits have small `t`.
+        /// From a point very near a triangle.
         NearSurface = "near-surface",
-        /// Intervals that begin or end at the `t` of a hit or an ulp beside it, or that contain it.
+        /// Most intervals begin or end within one ulp of the `t` of a hit.
         Windows = "windows",
-        /// NaN, infinity, zero directions, empty intervals: no ray may hit.
+        /// Rays with NaN, infinity, zero directions or empty intervals. No ray may hit.
         Invalid = "invalid",
         /// Intervals that end or begin at the float to which the exact `t` of a hit rounds. For half of the rays,
         /// this float is near the largest float.
@@ -52,7 +53,7 @@ named_enum! {
 }
 
 impl Stratum {
-    /// `count` rays of this stratum for `mesh`. An empty mesh gets rays for a triangle of unit size.
+    /// An empty mesh gets rays for a triangle of unit size.
     pub fn rays(self, mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
         let mut generator = Generator::new(mesh, seed ^ (self as u64) << 32);
         (0..count).map(|_| generator.ray(self)).collect()
@@ -62,7 +63,7 @@ impl Stratum {
 struct Generator<'a> {
     mesh: &'a Mesh,
     bounds: Aabb,
-    /// Length of the longest side of the box; 1 if the box is a point.
+    /// The longest side of the box, or 1 if the box is a point.
     size: f32,
     sampler: Sampler,
 }
@@ -149,13 +150,12 @@ impl<'a> Generator<'a> {
         corners
     }
 
-    /// A point of the cube around the box, or of a cube four times as wide.
     fn origin(&mut self) -> Vec3 {
         let reach = if self.sampler.coin() { 0.5 } else { 2.0 };
         self.bounds.centre() + self.sampler.cube() * (self.size * reach)
     }
 
-    /// A coordinate at which a builder may split: eighths of the box, or middle, centroid or corner of a triangle.
+    /// A coordinate at which a builder may split.
     fn split(&mut self, axis: usize) -> f32 {
         let (low, high) = (self.bounds.min[axis], self.bounds.max[axis]);
         let [a, b, c] = self.corners().map(|p| p[axis]);
@@ -167,7 +167,6 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// A point whose coordinates come from `split`.
     fn on_splits(&mut self) -> Vec3 {
         Vec3::from_array(std::array::from_fn(|axis| self.split(axis)))
     }
@@ -186,7 +185,6 @@ impl<'a> Generator<'a> {
         Ray::new(origin, self.any_direction(origin))
     }
 
-    /// A ray along `direction` through a vertex, a point of an edge, or a point from `on_splits`.
     fn through(&mut self, direction: Vec3) -> Ray {
         let target = match self.sampler.below(3) {
             0 => self.vertex(),
@@ -223,7 +221,7 @@ impl<'a> Generator<'a> {
         let direction = self.sampler.direction();
         let direction = self.axis_of(direction);
         let mut ray = self.through(direction);
-        // For half of the rays, mix the coordinates of several vertices: the ray may then run along an edge of a box.
+        // A ray with mixed coordinates of several vertices may run along an edge of a box.
         if self.sampler.coin() {
             let axis = direction.abs().max_position();
             for other in [(axis + 1) % 3, (axis + 2) % 3] {
@@ -244,7 +242,6 @@ impl<'a> Generator<'a> {
             let other = (axis + 1) % 3;
             ray.origin[other] = if self.sampler.coin() { bounds.min[other] } else { bounds.max[other] };
         }
-        // Aim half of the rays at the mesh.
         if self.sampler.coin() {
             let target = self.on_surface();
             let mut aimed = target - ray.origin;
@@ -274,7 +271,7 @@ impl<'a> Generator<'a> {
         Ray::new(target - direction * self.sampler.pick(&[0.0, 1.0, 4.0]), direction)
     }
 
-    /// The interval depends on the `t` that Möller-Trumbore computes. Other triangle tests agree within their rounding.
+    /// The interval depends on the `t` that Möller-Trumbore computes. Other triangle tests agree within rounding.
     fn window(&mut self) -> Ray {
         let corners = self.corners();
         let ray = self.towards(|own| own.sampler.point_of(corners));
@@ -307,7 +304,8 @@ impl<'a> Generator<'a> {
         ray
     }
 
-    /// Half of the hits are near the largest `t`: the direction is tiny. From a far origin it is longer, not denormal.
+    /// Half of the hits are near the largest `t`, because the direction is tiny. A far origin lengthens the direction,
+    /// to avoid denormal components.
     fn rounded_end(&mut self) -> Ray {
         let corners = self.corners();
         let (target, away) = (self.sampler.point_of(corners), self.sampler.pick(&[1.0, 30.0, 1e3]));
@@ -321,14 +319,14 @@ impl<'a> Generator<'a> {
     }
 }
 
-/// Two copies of `ray`: the interval of the first ends at the float to which `t` rounds, and the interval of the second
-/// begins there. If `t` is below that float, a hit at `t` belongs only to the first interval.
+/// The interval of the first ray ends at the float to which `t` rounds. The interval of the second ray begins at this
+/// float. If `t` is below the float, only the first interval contains `t`.
 pub fn rounded_ends(ray: &Ray, t: &ExactT) -> [Ray; 2] {
     let end = t.round();
     [ray.until(end), Ray { t_min: end, ..*ray }]
 }
 
-/// `ray` with a shorter direction. Its hit at `t` moves to the largest float, up to the rounding of the direction.
+/// Shortens the direction of `ray`. The hit at `t` moves to the largest float, up to the rounding of the direction.
 pub fn near_the_largest_t(ray: &Ray, t: f64) -> Ray {
     Ray { direction: (ray.direction.as_dvec3() * (t / f64::from(f32::MAX))).as_vec3(), ..*ray }
 }

@@ -4,16 +4,15 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
-use super::rounding::{Margin, Precision, nearest_sure};
+use super::rounding::{Margin, Precision, nearest_certain_hit};
 use super::{Kind, Reference, ScalarTest};
 use crate::exact::{self, ExactT};
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
 use crate::oracle::DepthRule;
 
-/// The verdict on a difference, and its reason in one sentence.
+/// The verdict on a difference, and the reason in one sentence.
 pub(super) type Blame = (Kind, String);
 
-/// The hits of a structure and of its reference for one ray.
 pub(super) struct Dispute<'a> {
     pub reference: &'a Reference,
     pub mesh: &'a Mesh,
@@ -23,7 +22,7 @@ pub(super) struct Dispute<'a> {
 }
 
 impl Dispute<'_> {
-    /// Judges the hit of the structure; `None` if structure and reference agree.
+    /// `None` if structure and reference agree.
     pub fn blame(&self) -> Option<Blame> {
         match (self.reference.test, self.expected, self.found) {
             (_, None, None) => None,
@@ -40,12 +39,12 @@ impl Dispute<'_> {
         }
     }
 
-    /// Corrects `other`, the verdict of `other_test`: runs `own`, the structure's test, on the disputed triangles.
+    /// `other` is the verdict of `other_test`, and `own` is the triangle test of the structure.
     fn own_test(&self, own: ScalarTest, other: Blame) -> Blame {
         let of = |hit: Option<Hit>| hit.and_then(|hit| own(self.ray, self.corners(hit.prim)?));
         let by_the_test = |sentence: &str| (Kind::TriangleTest, format!("{}, but {sentence}", other.1));
         match (other.0, self.found) {
-            // The traversal is right if the test misses the triangle, or hits it no nearer than the returned hit.
+            // The traversal is right if the test misses the triangle or returns no nearer `t`.
             (Kind::Lost | Kind::NearerLost, found) => match (of(self.expected), found) {
                 (None, _) => by_the_test("the structure's own triangle test misses it"),
                 (Some(t), Some(f)) if t >= f.t => {
@@ -53,7 +52,7 @@ impl Dispute<'_> {
                 }
                 _ => other,
             },
-            // The structure may return a wrong hit if its test returns this hit.
+            // A wrong hit is the fault of the test if the test returns this hit.
             (Kind::WrongT | Kind::Invented, Some(f)) => match of(self.found) {
                 Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => {
                     by_the_test("the structure's own triangle test gives the same result")
@@ -64,7 +63,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict if structure and reference have the same test: both must return the same bits.
+    /// A structure and a reference with the same test must return equal bits.
     fn same_test(&self, test: ScalarTest) -> Blame {
         // The test must return the found hit at the found primitive.
         if let Some(f) = self.found {
@@ -94,7 +93,8 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict if the structure misses or hits behind `expected`. Exact arithmetic decides if this is an error.
+    /// Judges a structure that finds no hit, or a hit behind `expected`. Exact arithmetic decides whether this is an
+    /// error.
     fn lost(&self, expected: Hit) -> Blame {
         let Some(nearer) = self.true_hit(expected) else {
             let sentence = format!("by exact arithmetic the ray does not hit {:?} in its interval", expected.prim);
@@ -115,7 +115,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict on primitives at equal computed `t`: the lower number must win if its exact `t` is at most this `t`.
+    /// Two primitives have equal computed `t`. The lower primitive must win if its exact `t` is at most this `t`.
     fn tie(&self, expected: Hit, found: Hit) -> Blame {
         let lower = self.true_hit(expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
         if lower.is_some() && expected.prim.index() < found.prim.index() {
@@ -125,20 +125,19 @@ impl Dispute<'_> {
         (Kind::Tie, "both primitives have this computed t".into())
     }
 
-    /// The nearer of the returned hits that exact arithmetic confirms, with its exact `t`.
     fn nearest(&self) -> Option<(ExactT, PrimId)> {
         let truths = [self.expected, self.found].map(|hit| Some((self.true_hit(hit?)?, hit?.prim)));
         truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
     }
 
-    /// The verdict if structure and reference have different tests. Exact arithmetic judges the structure together with
-    /// its test. Differences that rounding in the precision of the test explains are errors of the test.
+    /// Structure and reference have different tests, so exact arithmetic judges the structure. A difference that
+    /// rounding explains is an error of the test.
     fn other_test(&self) -> Option<Blame> {
         let (truth, found) = (self.nearest(), self.found);
         if let Some(blame) = found.and_then(|hit| self.no_hit(hit, truth.as_ref())) {
             return Some(blame);
         }
-        // To lose a nearer hit is an error if no rounding can hide the hit or move it behind the found `t`.
+        // A lost nearer hit is an error if no rounding hides the hit or moves it behind `limit`.
         let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
         let is_found = |t: &ExactT, prim| {
             found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
@@ -149,10 +148,10 @@ impl Dispute<'_> {
             if margin.latest() < limit && !margin.may_miss(self.ray) {
                 return Some((kind, exactly(*prim, t.round())));
             }
-            // Rounding may hide the nearest triangle or move it behind a farther one. But every test hits the triangle
-            // that `nearest_sure` finds, so a farther hit or a miss is wrong.
+            // Rounding may hide the nearest triangle. Every test in single precision hits the triangle that
+            // `nearest_certain_hit` finds. So a farther hit or a miss is wrong.
             if self.reference.precision == Precision::Single
-                && let Some((t, prim)) = nearest_sure(self.mesh, self.ray, limit)
+                && let Some((t, prim)) = nearest_certain_hit(self.mesh, self.ray, limit)
             {
                 return Some((kind, exactly(prim, t as f32)));
             }
@@ -160,7 +159,7 @@ impl Dispute<'_> {
         self.rounded(truth)
     }
 
-    /// The reason why no test of this precision returns this hit; `None` if a test may return it.
+    /// `None` if a test of this precision may return this hit.
     fn no_hit(&self, found: Hit, truth: Option<&(ExactT, PrimId)>) -> Option<Blame> {
         let prim = found.prim;
         let is_there =
@@ -181,7 +180,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// The verdict if rounding may explain the difference. `None` if the structure and the reference are both right.
+    /// Rounding may explain the difference. `None` if structure and reference are right.
     fn rounded(&self, truth: Option<(ExactT, PrimId)>) -> Option<Blame> {
         let is_right = |hit: Option<Hit>| match (&truth, hit) {
             (None, None) => true,
@@ -205,24 +204,22 @@ impl Dispute<'_> {
         }
     }
 
-    /// The corners of a primitive, if the mesh has it.
     fn corners(&self, prim: PrimId) -> Option<[Vec3; 3]> {
         ((prim.index() as usize) < self.mesh.len()).then(|| self.mesh.corners(prim.index()))
     }
 
-    /// The possible rounding of the structure's test at a primitive of the mesh.
+    /// `prim` must be in the mesh.
     fn margin(&self, prim: PrimId) -> Margin {
         Margin::new(self.ray, self.mesh.corners(prim.index()), self.reference.precision)
     }
 
-    /// The exact `t` at the primitive of `hit`, if the ray hits the primitive in the interval of the ray.
+    /// The exact `t` at the primitive of `hit`. `None` if no exact hit is in the interval of the ray.
     fn true_hit(&self, hit: Hit) -> Option<ExactT> {
         let corners = self.corners(hit.prim).filter(|_| self.ray.is_valid())?;
         exact::hit(self.ray, corners).filter(|t| t.is_within(self.ray))
     }
 }
 
-/// Describes a hit outside the interval of its ray; empty if it is inside.
 fn outside(ray: &Ray, found: Hit) -> String {
     let (t_min, t_max) = ray.interval();
     if t_min <= found.t && found.t < t_max {
@@ -232,12 +229,10 @@ fn outside(ray: &Ray, found: Hit) -> String {
     format!(", and t = {:?} is not in [{t_min:?}, {t_max:?}){rule}", found.t)
 }
 
-/// Formats an exact hit as a clause.
 fn exactly(prim: PrimId, t: f32) -> String {
     format!("by exact arithmetic the ray hits {prim:?} at t = {t:?}")
 }
 
-/// Formats an exact hit as a clause, with its distance in ulps from the `found` one.
 fn exactly_but_off(prim: PrimId, t: f32, found: f32) -> String {
     format!("{}, {} ulps away", exactly(prim, t), t.to_bits().abs_diff(found.to_bits()))
 }

@@ -7,22 +7,22 @@ use rayon::prelude::*;
 
 use super::blame::Dispute;
 use super::query_clock::{Call, QueryClock};
-use super::rounding::{Precision, may_be_hit, nearest_sure};
+use super::rounding::{Precision, may_be_hit, nearest_certain_hit};
 use super::{Kind, Reference, Validation, WorstRay};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::oracle::Oracle;
 
-/// Rays per batch. The result may depend on the batch size, so the size is fixed and does not follow the thread count.
+/// Rays per batch. A fixed number makes the result independent of the number of threads.
 pub(super) const BATCH: usize = 256;
 
-/// Rays over a mesh, and the hits of a reference for them, which several comparisons can share.
+/// Rays over a mesh, and the hits of a reference for these rays.
 #[derive(Clone, Copy)]
 pub struct ExpectedHits<'a> {
     pub reference: &'a Reference,
     pub mesh: &'a Arc<Mesh>,
     pub rays: &'a [Ray],
-    /// One per ray; the comparisons panic otherwise.
+    /// One hit per ray. The comparisons panic otherwise.
     pub hits: &'a [Option<Hit>],
 }
 
@@ -33,19 +33,15 @@ impl ExpectedHits<'_> {
         batches.map(|(rays, hits)| Self { rays, hits, ..*self }).collect()
     }
 
-    /// The sums if there are no differences.
     fn no_difference(&self) -> Validation {
         let hits = self.hits.iter().flatten().count() as u64;
         Validation { rays: self.rays.len() as u64, hits, ..Validation::default() }
     }
 
-    /// The record of a ray for which the structure returns `found`.
     pub(super) fn worst(&self, index: usize, found: Option<Hit>, kind: Kind, verdict: String) -> WorstRay {
         WorstRay { index: index as u64, ray: self.rays[index], expected: self.hits[index], found, kind, verdict }
     }
 
-    /// The sums of a batch that a panic or an endless loop (`kind`) has ended. Reports the ray that caused it, or the
-    /// first ray of the batch if no single ray caused it.
     pub(super) fn ended(&self, call: Call, kind: Kind, why: String) -> Validation {
         let rays = self.rays.len();
         let (index, verdict) = match call {
@@ -68,45 +64,44 @@ impl ExpectedHits<'_> {
         Dispute { reference, mesh, ray: &rays[index], expected: hits[index], found }
     }
 
-    /// Adds the difference between the hit of the structure and the expected hit, if any, to the sums.
     fn tally(&self, sums: &mut Validation, index: usize, found: Option<Hit>) {
         let Some((kind, verdict)) = self.dispute(index, found).blame() else { return };
         sums.note(self.worst(index, found, kind, verdict), self.reference.knows_structure_errors());
     }
 }
 
-/// Compares `subject` with `reference` on every ray. There are three checks: the closest hit is the reference's hit;
-/// the any-hit result agrees with the closest hit; the ray has the same hits on its own and in a batch. Batches are
-/// loaded with [`Accel::load`](crate::accel::Accel::load), as for timing.
+/// Compares `subject` with `reference` on every ray.
 ///
-/// Both structures must be built over `mesh`. Rays that the structure declines are left out and counted. A panic is
-/// caught and ends its batch; [`validate_watched`](super::validate_watched) also stops endless loops. Runs on all
-/// threads of the pool; the result does not depend on their number.
-/// Cost per ray: two closest-hit and two any-hit queries of `subject` and one closest-hit query of `reference`; a few
-/// microseconds more for a ray on which the hits differ.
+/// The closest hit is compared with the hit of the reference. The any-hit result must agree with the closest hit. A
+/// ray must have the same hits on its own and in a batch.
+///
+/// The two structures must be built over `mesh`. Rays that `subject` declines are left out and counted. A panic of
+/// `subject` ends its batch. Only [`validate_watched`](super::validate_watched) stops endless loops.
 pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Arc<Mesh>, rays: &[Ray]) -> Validation {
     validate_known(subject, &ExpectedHits { reference, mesh, rays, hits: &reference.closest_hits(rays) })
 }
 
 /// Like [`validate`], but receives the hits of the reference.
 pub fn validate_known(subject: &dyn DynAccel, expected: &ExpectedHits) -> Validation {
-    let (rays, hits) = admitted(subject, expected.rays, expected.hits);
+    let (rays, hits) = not_declined(subject, expected.rays, expected.hits);
     let batches = ExpectedHits { rays: &rays, hits: &hits, ..*expected }.batches();
     let of_batch = |batch| validate_batch(subject, batch, &QueryClock::default());
     let batches: Vec<Validation> = batches.par_iter().map(of_batch).collect();
     Validation::of_batches(expected.rays.len() - rays.len(), batches)
 }
 
-/// The rays that `subject` does not decline, and the hits of the reference for them.
-pub(super) fn admitted(subject: &dyn DynAccel, rays: &[Ray], expected: &[Option<Hit>]) -> (Vec<Ray>, Vec<Option<Hit>>) {
+pub(super) fn not_declined(
+    subject: &dyn DynAccel,
+    rays: &[Ray],
+    expected: &[Option<Hit>],
+) -> (Vec<Ray>, Vec<Option<Hit>>) {
     assert_eq!(rays.len(), expected.len(), "one hit per ray");
     let capabilities = subject.capabilities();
     let known = rays.iter().copied().zip(expected.iter().copied());
     known.filter(|(ray, _)| capabilities.declines(ray).is_none()).unzip()
 }
 
-/// Compares the closest hits `found` with the hits of the reference. This is only the first check of [`validate`]; the
-/// other two checks need the structure.
+/// Compares the closest hits `found` with the hits of the reference.
 ///
 /// # Panics
 /// If there is not one hit per ray.
@@ -124,9 +119,9 @@ pub fn validate_hits(expected: &ExpectedHits, found: &[Option<Hit>]) -> Validati
     Validation::of_batches(0, batches)
 }
 
-/// The indices of the rays on which `found` differs from the expected hits, each with the kind of the difference. The
-/// kinds presume that the expected hits are right. If structure and reference have different triangle tests,
-/// differences that `DepthRule::STRICT` allows are omitted.
+/// The indices of the rays on which `found` differs from the expected hits, with the kinds of the differences.
+///
+/// If structure and reference have different triangle tests, differences that `DepthRule::STRICT` allows are omitted.
 pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize, Kind)> {
     let differs = |index: usize| Some((index, expected.dispute(index, found[index]).blame()?.0));
     (0..expected.rays.len()).into_par_iter().filter_map(differs).collect()
@@ -135,9 +130,9 @@ pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize
 /// Compares the any-hit results `found` with the closest hits of the reference. The exact oracle judges the
 /// differences.
 ///
-/// If structure and reference share the triangle test, a hit that the reference lacks is `Invented`, even if the oracle
-/// has a hit there. If rounding may explain a result, the structure (`subject`) also traces the ray with the
-/// closest-hit query. A triangle test rounds the same way in both queries, so the queries must agree.
+/// If structure and reference share the triangle test, a hit that the reference lacks is `Invented`. This holds even
+/// if the oracle has a hit there. If rounding may explain a result, `subject` also traces the ray with the closest-hit
+/// query. A triangle test rounds equally in the two queries, so the queries must agree.
 ///
 /// # Panics
 /// If there is not one result per ray.
@@ -146,7 +141,6 @@ pub fn validate_any_hits(expected: &ExpectedHits, found: &[bool], subject: Optio
     assert!(rays.len() == found.len() && rays.len() == hits.len(), "one hit per ray");
     let mut sums = expected.no_difference();
     let shares_test = reference.test.is_some();
-    // A test in single precision may find a hit that does not exist, or miss one.
     let rounds = !shares_test && reference.precision == Precision::Single;
     let (mut oracle, mut excused) = (None, vec![]);
     for (index, ray) in rays.iter().enumerate().filter(|(index, _)| found[*index] != hits[*index].is_some()) {
@@ -155,7 +149,7 @@ pub fn validate_any_hits(expected: &ExpectedHits, found: &[bool], subject: Optio
         let kind = match (found, truth.is_some()) {
             (true, _) if shares_test => Kind::Invented,
             (true, false) if rounds && may_be_hit(mesh, ray) => Kind::TriangleTest,
-            (false, true) if rounds && nearest_sure(mesh, ray, f64::INFINITY).is_none() => Kind::TriangleTest,
+            (false, true) if rounds && nearest_certain_hit(mesh, ray, f64::INFINITY).is_none() => Kind::TriangleTest,
             (true, false) => Kind::Invented,
             (false, true) => Kind::Lost,
             _ if shares_test => Kind::TriangleTest,
@@ -168,8 +162,6 @@ pub fn validate_any_hits(expected: &ExpectedHits, found: &[bool], subject: Optio
         if rounds && kind == Kind::TriangleTest { excused.push(ray) } else { sums.note(ray, shares_test) }
     }
 
-    // A test rounds the same way in both queries. If the closest-hit query returns another result, the two queries
-    // disagree, and rounding is no excuse.
     let rays: Vec<Ray> = excused.iter().map(|own| own.ray).collect();
     let closest = subject.filter(|_| !rays.is_empty()).map_or(vec![], |subject| subject.closest(&rays));
     for (place, mut own) in excused.into_iter().enumerate() {
@@ -186,17 +178,15 @@ pub fn validate_any_hits(expected: &ExpectedHits, found: &[bool], subject: Optio
     sums
 }
 
-/// Compares one batch. `clock` shows the running query to another thread.
 pub(super) fn validate_batch(subject: &dyn DynAccel, batch: &ExpectedHits, clock: &QueryClock) -> Validation {
-    // Trace each ray on its own before the batch: a panic or hang then has a known ray.
+    // First trace each ray on its own. The ray of a panic or hang is then known.
     let mut single = Vec::with_capacity(batch.rays.len());
     for (index, ray) in batch.rays.iter().enumerate() {
-        match clock.run(Call::Ray(index), || traced_alone(subject, ray)) {
+        match clock.run(Call::Ray(index), || trace_single(subject, ray)) {
             Ok(hits) => single.push(hits),
             Err(message) => return batch.ended(Call::Ray(index), Kind::Panicked, message),
         }
     }
-    // Trace the loaded batch, as the timing does.
     let (found, any) = match clock.run(Call::Batch, || traced_loaded(subject, batch.rays)) {
         Ok(hits) => hits,
         Err(message) => return batch.ended(Call::Batch, Kind::Panicked, message),
@@ -211,7 +201,6 @@ pub(super) fn validate_batch(subject: &dyn DynAccel, batch: &ExpectedHits, clock
             sums.declined += 1;
             continue;
         }
-        // A hit that is not repeatable gets no further check.
         let (on_its_own, any_alone) = single[index];
         if !same(on_its_own, found) || checks_any && any_alone != any {
             let closest = on_its_own.map_or("none".to_owned(), |hit| format!("t = {:?} at {:?}", hit.t, hit.prim));
@@ -232,15 +221,15 @@ pub(super) fn validate_batch(subject: &dyn DynAccel, batch: &ExpectedHits, clock
     sums
 }
 
-/// An initial value that no structure returns: a structure must overwrite it in every slot.
+/// An initial value that no structure returns. An unwritten slot is then a wrong hit.
 fn unwritten() -> Option<Hit> {
     Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1))
 }
 
-fn traced_alone(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
+fn trace_single(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
     let mut found = [unwritten()];
     subject.closest_hits(&[*ray], &mut found);
-    // The any-hit slots start with the opposite of the closest hit: an unwritten slot then contradicts it.
+    // Start with the opposite of the closest hit. An unwritten slot then contradicts this hit.
     let mut any = [found[0].is_none()];
     subject.any_hits(&[*ray], &mut any);
     (found[0], any[0])

@@ -7,7 +7,6 @@ use glam::Vec3;
 use super::Sampler;
 use crate::geometry::Mesh;
 
-/// The meshes of the conformance suite, by name.
 pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
     let mut meshes: Vec<(String, Arc<Mesh>)> = vec![
         ("one triangle".into(), mesh([TRIANGLE])),
@@ -37,7 +36,7 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
 
 const FAR: Vec3 = Vec3::new(148_376.0, 1234.0, -223_423.0);
 
-/// A mesh for which traversals need a deep stack: a ray that crosses all sheets enters all nodes.
+/// A mesh that needs a deep traversal stack, because a ray can cross the boxes of all sheets.
 pub fn stacked_sheets() -> Vec<(String, Arc<Mesh>)> {
     vec![("8192 stacked sheets".into(), sheets(8192))]
 }
@@ -49,7 +48,6 @@ pub(crate) fn sheets(count: u16) -> Arc<Mesh> {
 pub(crate) const TRIANGLE: [Vec3; 3] =
     [Vec3::new(-1.0, -0.5, 0.25), Vec3::new(1.5, -0.75, 0.5), Vec3::new(0.25, 1.0, -0.5)];
 
-/// A mesh of triangles that share no vertex indices.
 pub(crate) fn mesh(triangles: impl IntoIterator<Item = [Vec3; 3]>) -> Arc<Mesh> {
     let triangles: Vec<[Vec3; 3]> = triangles.into_iter().collect();
     Arc::new(Mesh::from_triangles(&triangles).expect("made of finite numbers"))
@@ -75,7 +73,7 @@ pub(crate) fn coplanar(n: usize, u: Vec3, v: Vec3) -> Arc<Mesh> {
     }))
 }
 
-/// Every second triangle has no area: it is a point, has two equal corners, or has its corners on a line.
+/// Every second triangle has no area.
 pub(crate) fn half_without_area(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(5);
     mesh(soup_triangles(n, 5).enumerate().map(|(i, [a, b, c])| match i % 6 {
@@ -90,7 +88,7 @@ pub(crate) fn half_without_area(n: usize) -> Arc<Mesh> {
     }))
 }
 
-/// Long thin triangles through one point: no partition separates their boxes.
+/// Long thin triangles through one point. No partition separates their boxes.
 pub(crate) fn needles(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(6);
     mesh((0..n).map(|_| {
@@ -100,7 +98,6 @@ pub(crate) fn needles(n: usize) -> Arc<Mesh> {
     }))
 }
 
-/// Octahedra around the origin. Their radii are the powers of two from 2^-30 to 2^30.
 pub(crate) fn shells() -> Arc<Mesh> {
     mesh((-30..=30).flat_map(|exponent| {
         let r = libm::scalbnf(1.0, exponent);
@@ -115,7 +112,8 @@ pub(crate) fn octahedron() -> impl Iterator<Item = [Vec3; 3]> {
     })
 }
 
-/// The x coordinate and the size of triangle `k` are about 1e-16 x 1.3^k. A middle split separates few triangles.
+/// Sizes and x coordinates grow by a factor of 1.3 per triangle. A split in the middle of a box separates few
+/// triangles.
 pub(crate) fn exponential(n: usize) -> Arc<Mesh> {
     let mut at = 1e-16_f32;
     mesh((0..n).map(|_| {
@@ -145,7 +143,7 @@ pub(crate) fn box_grid(n: usize) -> Arc<Mesh> {
     mesh(triangles)
 }
 
-/// Triangles with the same centroid: no plane between centroids separates them.
+/// Triangles with the same centroid. No plane between centroids separates them.
 pub(crate) fn same_centroid(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(7);
     mesh((0..n).map(|_| {
@@ -160,8 +158,7 @@ pub(crate) fn huge_and_small() -> Arc<Mesh> {
     mesh(soup_triangles(200, 8).chain([huge]))
 }
 
-/// A unit sphere, made from an octahedron by splitting every triangle into four, `levels` times. It is closed:
-/// neighbouring triangles have the same corners, bit for bit.
+/// A closed unit sphere. Neighbouring triangles have the same corners, bit for bit.
 fn sphere(levels: usize) -> Arc<Mesh> {
     let mut triangles: Vec<[Vec3; 3]> = octahedron().collect();
     for _ in 0..levels {
@@ -182,8 +179,6 @@ mod tests {
     use crate::geometry::Ray;
     use crate::oracle::Oracle;
 
-    /// Rays along -z from inside the cube meet its bottom at `t` = 2.5. They cross triangles, edges and vertices, and
-    /// some of them lie in the planes of side faces.
     #[test]
     fn rays_in_the_box_of_a_grid_hit_exactly_the_far_side() {
         let mesh = box_grid(4);
@@ -194,7 +189,7 @@ mod tests {
                 let truth =
                     oracle.nearest(&Ray::new(Vec3::new(x, y, 0.25), Vec3::new(zero, zero, -0.5))).expect("closed");
                 assert_eq!(truth.rounded(), 2.5);
-                // In the interior of the bottom, a vertex of the grid belongs to six triangles, and an edge to two.
+                // Inside the bottom, a vertex of the grid belongs to six triangles, and an edge to two.
                 let through = |c: f32| (c * 2.0).fract() == 0.0;
                 let inside = x.abs() < 1.0 && y.abs() < 1.0;
                 match (through(x), through(y)) {

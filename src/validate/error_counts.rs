@@ -1,19 +1,16 @@
-//! Counts the errors of hits by comparison with exact hits, for any structure and triangle test.
+//! Counts the errors of a structure's hits by comparison with exact hits.
 
 use crate::geometry::Hit;
 use crate::measure::beta_quantile;
 use crate::oracle::{DepthRule, Outcome, Truth, outcome, ulp};
 
-/// Sums over rays. Do not add up workloads that fail for different reasons.
+/// Sums over the rays of a comparison.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ErrorCounts {
-    /// Rays compared.
     pub rays: u64,
     /// Rays with an exact hit.
     pub hits: u64,
-    /// Rays with an exact hit for which the structure returns a miss.
     pub missed: u64,
-    /// Rays without an exact hit for which the structure returns a hit.
     pub false_hits: u64,
     /// Hits at a depth that the `DepthRule` of the comparison rejects.
     pub wrong_depth: u64,
@@ -28,7 +25,6 @@ pub struct ErrorCounts {
 pub struct Ulps {
     #[serde(deserialize_with = "infinite_if_null")]
     pub median: f64,
-    /// The 99th percentile.
     #[serde(deserialize_with = "infinite_if_null")]
     pub p99: f64,
     #[serde(deserialize_with = "infinite_if_null")]
@@ -41,20 +37,19 @@ fn infinite_if_null<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result
 }
 
 impl ErrorCounts {
-    /// The number of rays with an error: a missed hit, a false hit or a wrong depth.
+    /// Rays with an error. A wrong primitive at the right depth is no error.
     pub fn errors(&self) -> u64 {
         self.missed + self.false_hits + self.wrong_depth
     }
 
-    /// The error rate: rays with an error / rays. `None` without rays.
+    /// The error rate. `None` without rays.
     pub fn error_share(&self) -> Option<f64> {
         (self.rays > 0).then(|| self.errors() as f64 / self.rays as f64)
     }
 
     /// An upper bound of the true error rate, with 95 % confidence. `None` without rays.
     ///
-    /// The bound is one-sided: if the true error rate is equal to the bound, 5 % of the runs have no more errors than
-    /// this run. For n rays without an error, the bound is 1 - 0.05^(1 / n), about 3 / n.
+    /// The bound is one-sided. For n rays without an error, the bound is 1 - 0.05^(1 / n), about 3 / n.
     ///
     /// # References
     /// Clopper, Pearson: The use of confidence or fiducial limits illustrated in the case of the binomial. Biometrika
@@ -70,10 +65,10 @@ impl ErrorCounts {
     }
 }
 
-/// The probability that the true error rate exceeds its bound.
+/// The maximum probability that the bound is below the true error rate.
 const LEVEL: f64 = 0.05;
 
-/// Counts the errors of `answers`, compared with the exact hits `truths`.
+/// Counts the errors of the hits `answers` by comparison with the exact hits `truths`.
 ///
 /// # Panics
 /// If the numbers of hits and truths differ.
@@ -105,7 +100,7 @@ pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: Dep
 fn summary(mut ulps: Vec<f64>) -> Option<Ulps> {
     ulps.sort_unstable_by(f64::total_cmp);
     let max = *ulps.last()?;
-    // The smallest of the values that are at least as large as `percent` % of all values.
+    // The nearest-rank quantile.
     let quantile = |percent: usize| ulps[(ulps.len() * percent).div_ceil(100) - 1];
     Some(Ulps { median: quantile(50), p99: quantile(99), max })
 }
@@ -120,8 +115,7 @@ mod tests {
     use crate::geometry::{Mesh, Ray};
     use crate::oracle::Oracle;
 
-    /// The exact hits of two rays on two parallel triangles. The first ray meets the triangles at `t` = 1 and
-    /// 1 + `gap`. The second ray misses them.
+    /// The first ray meets two triangles, at `t` = 1 and at `t` = 1 + `gap`. The second ray misses.
     fn truths(gap: f32) -> [Option<Truth>; 2] {
         let corners = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
         let positions = [corners(1.0), corners(1.0 + gap)].concat();

@@ -1,11 +1,11 @@
-//! Validation: compares a structure with a reference, hit for hit. Exact arithmetic judges the differences.
+//! Compares a structure with a reference, hit for hit, and finds the cause of each difference.
 //!
-//! A *structure error* is a hit that the traversal lost or invented: the result differs from brute force with the same
-//! triangle test. A correct structure has no structure errors. A *triangle-test error* is a hit or miss that differs
-//! from the exact one because the triangle test rounds. One exception: if the test reports a hit where the exact ray
-//! has none, a traversal may return or cull it. If structure and reference have different triangle tests, rounding in
-//! single precision decides: differences that it explains are triangle-test errors, all other wrong hits are *answer
-//! errors*.
+//! A *structure error* is a hit that the traversal lost or invented. The result then differs from brute force with the
+//! same triangle test. A *triangle-test error* is a wrong hit or miss that the rounding of the triangle test causes. An
+//! *answer error* is a wrong hit that rounding in single precision cannot explain. Answer errors occur only if
+//! structure and reference have different triangle tests.
+//!
+//! A traversal may return or cull a hit that only a rounded triangle test reports.
 
 pub mod adversarial;
 mod blame;

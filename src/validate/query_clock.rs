@@ -6,19 +6,16 @@ use std::time::{Duration, Instant};
 
 use crate::panics::caught;
 
-/// The message of a panic.
 pub(super) fn message(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().copied();
     let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
     text.map_or("there is no message".into(), |text| format!("the message is {text:?}"))
 }
 
-/// A query of a structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Call {
-    /// One ray of a batch, on its own.
+    /// The index of a ray that is traced on its own.
     Ray(usize),
-    /// All rays of a batch.
     Batch,
 }
 
@@ -26,7 +23,7 @@ pub(super) enum Call {
 pub(super) struct QueryClock(Mutex<Option<(Call, Instant)>>);
 
 impl QueryClock {
-    /// Runs a query. Returns its result, or the message of its panic.
+    /// Returns the message of a panic as an error.
     pub fn run<R>(&self, call: Call, query: impl FnOnce() -> R) -> Result<R, String> {
         self.set(Some((call, Instant::now())));
         let result = caught(query);

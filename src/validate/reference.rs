@@ -20,11 +20,11 @@ use crate::triangle::{
     BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, TriangleTest, Watertight, scalar_hit,
 };
 
-/// Tests one triangle. Returns `t` if the ray hits the triangle in the interval of the ray.
+/// Returns `t` if the ray hits the triangle in the interval of the ray.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
 
-/// A triangle test for which [`Reference::of_test`] returns brute force with the same test. The registry offers brute
-/// force and the trees of this crate only over these tests.
+/// A triangle test for which [`Reference::of_test`] returns brute force with the same test. The registry offers the
+/// structures of this crate only over these tests.
 pub(crate) trait HasReference: TriangleTest {}
 
 type OfMesh = fn(&Arc<Mesh>) -> Result<Reference, BuildError>;
@@ -33,7 +33,6 @@ macro_rules! references {
     ($($(#[$feature:meta])? $test:ty),* $(,)?) => {
         $($(#[$feature])? impl HasReference for $test {})*
 
-        /// For each triangle test, its name and the constructor of its reference.
         const REFERENCES: &[(&str, OfMesh)] = &[$($(#[$feature])? (<$test>::NAME, Reference::brute_force::<$test>)),*];
     };
 }
@@ -56,25 +55,24 @@ references!(
 /// Rays per task of the thread pool. The number is small because brute force takes milliseconds per ray.
 const BATCH: usize = 32;
 
-/// A reference structure, and the rules for comparing another structure, the tested one, with it.
+/// A reference structure, and the rules for the comparison of a tested structure.
 pub struct Reference {
     /// The structure whose hits are expected.
     pub accel: Box<dyn DynAccel>,
-    /// The triangle test of the reference, if the tested structure has the same one: its hits must then have the same
-    /// bits. `None` if the triangle tests differ, or if the reference may have lost hits.
+    /// The triangle test, if the tested structure and the reference have the same one. Hits must then have equal bits.
+    /// `None` if the triangle tests differ, or if the reference may have lost hits.
     pub test: Option<ScalarTest>,
-    /// The precision of the triangle test of the tested structure. Used only if `test` is `None`: differences that
-    /// rounding in this precision explains are not errors of the structure.
+    /// The precision of the tested structure's triangle test, used only if `test` is `None`. Differences that rounding
+    /// in this precision explains are not errors of the structure.
     pub precision: Precision,
-    /// The triangle test of the tested structure, if it is too slow for brute force. It runs only on the triangles of
-    /// differing hits, and distinguishes hits that the structure lost from hits that the test does not find.
+    /// The triangle test of the tested structure, if it is too slow for brute force. This test runs only on the
+    /// triangles of differing hits.
     pub disputed: Option<ScalarTest>,
 }
 
 impl Reference {
-    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)). If this
-    /// crate lacks the test, the reference is brute force with `exact`. Embree's tests are too slow for brute force:
-    /// the reference is also brute force with `exact`, and Embree's test judges the triangles of differing hits.
+    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)). The
+    /// reference uses `exact` if this crate lacks the test, or if brute force with the test is too slow.
     ///
     /// # Errors
     /// If the reference cannot be built over the mesh.
@@ -91,7 +89,6 @@ impl Reference {
         }
     }
 
-    /// Brute force with the triangle test of the tested structure.
     pub(super) fn brute_force<T: TriangleTest>(mesh: &Arc<Mesh>) -> Result<Self, BuildError>
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,
@@ -107,12 +104,12 @@ impl Reference {
         Ok(Self { test: None, precision, disputed: Some(disputed), ..Self::brute_force::<Exact>(mesh)? })
     }
 
-    /// The closest hits of the reference, one per ray, traced on all threads of the pool.
+    /// The closest hits of the reference, one per ray.
     pub fn closest_hits(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
         self.accel.closest_by_chunks(rays, BATCH)
     }
 
-    /// Whether hits lost by a structure can be distinguished from hits that its triangle test does not find.
+    /// Whether a comparison distinguishes errors of the structure from errors of its triangle test.
     pub fn knows_structure_errors(&self) -> bool {
         self.test.is_some() || self.disputed.is_some()
     }

@@ -1,4 +1,4 @@
-//! Compares a runner, a program in any language, with the reference.
+//! Compares a runner, an external program, with the reference.
 
 use super::compare::same;
 use super::{ExpectedHits, Kind, Validation, validate_hits};
@@ -9,11 +9,10 @@ use crate::measure::spread;
 /// The maximum number of rays that are traced again, in another batch.
 const AGAIN: usize = 256;
 
-/// Like [`validate_known`](super::validate_known), but with few calls, because each call of a runner takes long. Each
-/// query runs once for all rays. The closest-hit query runs again for at most 256 rays.
+/// Like [`validate_known`](super::validate_known), but with few calls, because each call of a runner takes long.
 ///
 /// # Errors
-/// If the program of the structure has failed; no ray is then checked.
+/// If the program of the structure has failed.
 pub fn validate_remote(subject: &dyn DynAccel, expected: &ExpectedHits) -> Result<Validation, BuildError> {
     let rays = expected.rays;
     let found = subject.closest(rays);

@@ -1,15 +1,16 @@
-//! Bounds the rounding of a triangle test in single precision. If the triangle test of a structure is unknown, a hit is
-//! wrong if this rounding cannot explain it.
+//! Bounds the rounding of a triangle test in single precision.
+//!
+//! A hit of an unknown triangle test is wrong if this bound does not explain the hit.
 
 use glam::{DVec3, Vec3};
 
 use crate::geometry::{Mesh, PrimId, Ray};
 
-/// Half a unit in the last place of 1, the largest relative error of one operation.
+/// The largest relative error of one operation in single precision.
 const ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
 
-/// The maximum number of rounding errors that add up in a triangle test. It covers tests that store corners and tests
-/// that store planes or transformations.
+/// The maximum number of rounding errors that add up in a triangle test. The number covers tests that store corners,
+/// planes or transformations.
 const OPERATIONS: f64 = 32.0;
 
 /// Products of at least `LARGEST` may overflow in single precision. Determinants below `SMALLEST` may underflow or have
@@ -17,18 +18,19 @@ const OPERATIONS: f64 = 32.0;
 const LARGEST: f64 = (1_u128 << 125) as f64;
 const SMALLEST: f64 = 1.0 / (1_u128 << 102) as f64;
 
-/// The precision of a triangle test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
-    /// Its hits are mathematically right; `t` is the nearest `f32`.
+    /// Hits are exact, and `t` is the nearest `f32`.
     Exact,
-    /// It computes with at least 24 bits, from differences of corners and origin or from stored planes.
+    /// The test computes with at least 24 bits, from differences of corners and origin or from stored planes.
     Single,
 }
 
-/// The intersection of a ray with the plane of a triangle, and the maximum error of a triangle test there. Let A be the
-/// largest distance of corners and ray origin from zero, L the longest edge, D the length of the direction, and r =
-/// `OPERATIONS` * `ROUNDOFF`. A barycentric weight is off by at most r A L D / |det|, t by r A L L / |det| + r |t|.
+/// The intersection of a ray with the plane of a triangle, and the maximum error of a test there.
+///
+/// Let A be the largest distance of a corner or the ray origin from zero. Let L be the longest edge, D the length of
+/// the direction, and r = `OPERATIONS` * `ROUNDOFF`. A barycentric weight is off by at most r A L D / |det|. `t` is off
+/// by at most r A L L / |det| + r |t|.
 ///
 /// # References
 /// Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002 (running error of inner products).
@@ -70,18 +72,17 @@ impl Margin {
         }
     }
 
-    /// Whether a test of this precision may miss the triangle although the ray hits it. A test may do so near an edge,
-    /// near an end of the interval, along the plane, or if numbers are too large or too small.
+    /// Whether a test of this precision may miss the triangle although the ray hits it.
     pub fn may_miss(&self, ray: &Ray) -> bool {
         let (t_min, _) = ray.interval();
-        // The weights add up to 1, so the smallest is at most 1/3. `min` removes the error of `weight` above 1/3.
+        // The weights add up to 1, so the smallest is at most 1/3. A larger `weight` is a rounding error.
         let is_inside = self.weight.min(1.0 / 3.0) > self.weight_error
             && self.t - self.t_error > f64::from(t_min)
             && self.t + self.t_error < ray.end();
         self.precision == Precision::Single && !(is_inside && self.is_in_range)
     }
 
-    /// Whether a test of this precision may return a hit at `t` although the ray misses the triangle in its interval.
+    /// Whether a test of this precision may return a hit at `t` although the ray misses the triangle.
     pub fn may_hit(&self, ray: &Ray, t: f32) -> bool {
         // A test may compute any weight and depth for rays along the plane and for triangles without area.
         let is_along = self.weight_error.is_nan() || self.weight_error >= 1.0;
@@ -104,7 +105,7 @@ impl Margin {
 }
 
 /// The nearest triangle that every test in single precision hits before `limit`, and its `t`.
-pub fn nearest_sure(mesh: &Mesh, ray: &Ray, limit: f64) -> Option<(f64, PrimId)> {
+pub fn nearest_certain_hit(mesh: &Mesh, ray: &Ray, limit: f64) -> Option<(f64, PrimId)> {
     let margins = mesh.solid().map(|index| (Margin::new(ray, mesh.corners(index), Precision::Single), index));
     let sure = margins.filter(|(margin, _)| margin.latest() < limit && !margin.may_miss(ray));
     let nearest = sure.min_by(|(one, _), (other, _)| one.t.total_cmp(&other.t));
@@ -131,7 +132,7 @@ mod tests {
     use crate::triangle::{BaldwinWeber, Exact, MollerTrumbore, TriangleTest, Watertight};
     use crate::validate::{Reference, Stratum, degenerate_meshes, validate};
 
-    /// Checks that the bound explains all hits of a test in single precision. The reference does not know the test.
+    /// The reference does not know the triangle test, so the bound must explain all differences.
     fn is_excused<T: TriangleTest>(count: usize) {
         for (name, mesh) in degenerate_meshes() {
             let subject = BruteForce::<T>::build(&mesh, &Default::default()).unwrap();
@@ -145,8 +146,7 @@ mod tests {
         }
     }
 
-    /// Plücker's test is left out. Its error grows with the square of the distance, and a bound that covers this error
-    /// would also excuse lost leaves of large, fine meshes.
+    /// Plücker's test is left out, because its error grows with the square of the distance.
     #[test]
     fn no_test_by_edges_or_planes_rounds_beyond_the_bound() {
         is_excused::<MollerTrumbore>(40);
@@ -162,15 +162,15 @@ mod tests {
             Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2], [0, 2, 3]]).unwrap())
         };
         let down = |x: f32, y: f32| Ray::new(Vec3::new(x, y, 2.0), Vec3::NEG_Z);
-        for (scale, ray, is_sure) in [
+        for (scale, ray, is_certain) in [
             (1.0, down(0.75, 0.25), true),
-            // The hit is on an edge, next to an edge or at the end of the interval, or products underflow.
+            // The hit is on or next to an edge, or at the end of the interval, or products underflow.
             (1.0, down(0.5, 0.5), false),
             (1.0, down(0.5, 0.5000001), false),
             (1.0, down(0.75, 0.25).until(2.0), false),
             (1e-20, down(0.75e-20, 0.25e-20), false),
         ] {
-            assert_eq!(nearest_sure(&square(scale), &ray, f64::INFINITY).is_some(), is_sure, "{scale} {ray}");
+            assert_eq!(nearest_certain_hit(&square(scale), &ray, f64::INFINITY).is_some(), is_certain, "{scale} {ray}");
         }
     }
 }

@@ -1,10 +1,10 @@
-//! Seeded random numbers, points and choices: the same on every machine.
+//! Seeded random numbers, points and choices, which are the same on every machine.
 
 use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// A seeded source of random values for ray and mesh generators. It calls no function whose result varies by platform.
+/// A seeded source of random values. Its code must call no function whose result varies by platform.
 pub struct Sampler(Pcg32);
 
 impl Sampler {
@@ -41,7 +41,6 @@ impl Sampler {
         if self.coin() { 0.0 } else { -0.0 }
     }
 
-    /// +1.0 or -1.0.
     pub fn sign(&mut self) -> f32 {
         if self.coin() { 1.0 } else { -1.0 }
     }
@@ -51,7 +50,7 @@ impl Sampler {
         Vec3::new(self.signed(), self.signed(), self.signed())
     }
 
-    /// A unit vector, uniform on the sphere up to rounding: a normalised point of the unit ball, found by rejection.
+    /// A unit vector, uniform on the sphere up to rounding.
     pub fn direction(&mut self) -> Vec3 {
         loop {
             let p = self.cube();
@@ -62,13 +61,12 @@ impl Sampler {
         }
     }
 
-    /// A point of a triangle.
     pub fn point_of(&mut self, [a, b, c]: [Vec3; 3]) -> Vec3 {
         let [u, v, w] = self.barycentric();
         a * u + b * v + c * w
     }
 
-    /// Barycentric weights of three corners. They are not negative, and their sum is 1 up to rounding.
+    /// Three weights of at least 0. Their sum is 1 up to rounding.
     pub fn barycentric(&mut self) -> [f32; 3] {
         let (mut u, mut v) = (self.unit(), self.unit());
         if u + v > 1.0 {

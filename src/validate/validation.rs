@@ -1,4 +1,4 @@
-//! The result of a comparison.
+//! The result of a comparison of a structure with its reference.
 
 use std::fmt::{Display, Formatter};
 
@@ -12,14 +12,15 @@ use crate::names::named_enum;
 pub struct Validation {
     /// Compared rays, including all rays of a batch that a panic or an endless loop ended.
     pub rays: u64,
-    /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)); their hits are not checked.
+    /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)). Their hits are not checked.
     pub declined: u64,
     /// Rays with a hit of the reference.
     pub hits: u64,
     /// Rays on which structure and reference return different hits. Ties do not count. With the same triangle test,
-    /// every bit of `t` counts. Otherwise `t` must differ by more than 4 ulps and by more than 1e-6 relatively.
+    /// every bit of `t` counts. Otherwise a `t` that [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) allows
+    /// does not count.
     pub differing: u64,
-    /// Hits lost or invented by the structure; zero in a correct structure.
+    /// Hits that the structure lost or invented. Zero in a correct structure.
     pub structure_errors: u64,
     /// Differences that rounding of the structure's triangle test causes.
     pub test_errors: u64,
@@ -28,21 +29,21 @@ pub struct Validation {
     /// Wrong hits that rounding of the structure's triangle test cannot explain. Zero if the reference knows this test,
     /// because these hits are then structure errors.
     pub answer_errors: u64,
-    /// Depths that [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) rejects, but that rounding in single
-    /// precision explains. Zero if structure and reference share the triangle test.
+    /// Depths that `DepthRule::STRICT` rejects, but that rounding in single precision explains. Zero if structure and
+    /// reference share the triangle test.
     pub depth_errors: u64,
     /// Rays on which any hit and closest hit contradict each other.
     pub any_hit_errors: u64,
-    /// Rays whose hit changes if they are traced on their own instead of in a batch. These rays get no further check.
+    /// Rays whose hit differs between a batch and a single ray. These rays get no further check.
     pub unrepeatable: u64,
     /// Batches that a panic of the structure ended.
     pub panics: u64,
     /// Batches that took too long. The first one ends the comparison.
     pub hangs: u64,
-    /// Rays with the `t` of the reference on another primitive that is also hit at this `t`. Not an error.
+    /// Rays on which the structure returns another primitive that is hit at the `t` of the reference. Not an error.
     pub ties: u64,
-    /// Ties in which the reference's primitive has the lower number, and in exact arithmetic is hit at or before the
-    /// returned `t`. An error only if the structure promises the lowest number.
+    /// Ties in which the reference's primitive has the lower number. In exact arithmetic, this primitive is hit at or
+    /// before the returned `t`. An error only if the structure promises the lowest number.
     pub higher_ids: u64,
     /// At most [`Validation::WORST`] rays, worst first.
     pub worst: Vec<WorstRay>,
@@ -54,9 +55,7 @@ pub struct WorstRay {
     /// Index among the compared rays.
     pub index: u64,
     pub ray: Ray,
-    /// The hit of the reference.
     pub expected: Option<Hit>,
-    /// The hit of the structure.
     pub found: Option<Hit>,
     pub kind: Kind,
     /// The reason, in one sentence.
@@ -64,13 +63,11 @@ pub struct WorstRay {
 }
 
 named_enum! {
-    /// The kind of a difference, the worst first.
+    /// The kind of a difference. The kinds are ordered from the worst on, and the kinds before `Depth` are errors.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Kind {
-        /// A query does not return in time.
         Hangs = "hangs",
-        /// The structure panics.
         #[serde(rename = "panics")]
         Panicked = "panics",
         /// The structure returns a miss although the ray has an exact hit.
@@ -84,25 +81,23 @@ named_enum! {
         WrongT = "wrong-t",
         /// The returned `t` is right, but the returned primitive is not hit there.
         WrongPrimitive = "wrong-primitive",
-        /// Any hit contradicts closest hit.
         AnyHitDisagrees = "any-hit-disagrees",
-        /// The hit of the ray in a batch differs from its hit on its own.
         Unrepeatable = "unrepeatable",
         /// The primitive is right. `t` is wrong by more than `DepthRule::STRICT` allows, but rounding explains this.
         Depth = "depth",
         /// An error of the triangle test, not of the structure.
         TriangleTest = "triangle-test",
-        /// The reference, which has another triangle test, is wrong; the structure's hit is right.
+        /// The structure is right, and the reference is wrong.
         Reference = "reference",
-        /// The right `t`, but a primitive with a lower number has it too: wrong only if the lowest number is promised.
+        /// `t` is right, but a primitive with a lower number is hit there too. Wrong only if the lowest number is
+        /// promised.
         HigherId = "higher-id",
-        /// The right `t` at another primitive that is also hit there: not an error.
+        /// `t` is right, and the returned primitive is hit there too. Not an error.
         Tie = "tie",
     }
 }
 
 impl Kind {
-    /// Whether the structure's hit is wrong.
     pub fn is_error(self) -> bool {
         self < Self::Depth
     }
@@ -112,17 +107,16 @@ impl Validation {
     /// The maximum number of stored rays.
     pub const WORST: usize = 10;
 
-    /// All errors that no rounding explains; 0 for a correct structure.
+    /// All errors that rounding does not explain. 0 for a correct structure.
     pub fn errors(&self) -> u64 {
         self.structure_errors + self.answer_errors + self.any_hit_errors + self.unrepeatable + self.panics + self.hangs
     }
 
-    /// The worst ray whose hit is wrong.
     pub fn worst_error(&self) -> Option<&WorstRay> {
         self.worst.first().filter(|w| w.kind.is_error())
     }
 
-    /// Adds up batches, which must be in the order of their rays. `declined` counts the rays that no batch contains.
+    /// `batches` must be in the order of their rays. `declined` counts the rays that no batch contains.
     pub(super) fn of_batches(declined: usize, batches: impl IntoIterator<Item = Self>) -> Self {
         let mut whole = Self { declined: declined as u64, ..Self::default() };
         for mut batch in batches {
@@ -140,8 +134,6 @@ impl Validation {
         whole
     }
 
-    /// Counts a ray on which structure and reference differ. `knows_structure_errors` is true if the reference
-    /// distinguishes errors of the structure from errors of its triangle test.
     pub(super) fn note(&mut self, ray: WorstRay, knows_structure_errors: bool) {
         match ray.kind {
             Kind::Tie => self.ties += 1,
@@ -166,7 +158,6 @@ impl Validation {
 }
 
 impl WorstRay {
-    /// Relative distance of the two `t`; infinite if one of the results is a miss.
     fn gap(&self) -> f64 {
         match (self.expected, self.found) {
             (Some(e), Some(f)) => (f64::from(e.t) - f64::from(f.t)).abs() / f64::from(e.t.abs().max(f32::MIN_POSITIVE)),

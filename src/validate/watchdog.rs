@@ -1,6 +1,6 @@
 //! Runs queries that may never return, on threads with a time limit.
 //!
-//! No thread can end another thread: a hanging thread is left behind, and ends with the process.
+//! A thread cannot end another thread. A hanging thread therefore runs until the process ends.
 
 use std::collections::BTreeMap;
 use std::panic::resume_unwind;
@@ -10,25 +10,22 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use super::compare::{BATCH, ExpectedHits, admitted, validate_batch};
+use super::compare::{BATCH, ExpectedHits, not_declined, validate_batch};
 use super::query_clock::{QueryClock, message};
 use super::{Kind, Reference, Validation};
 use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::panics::caught;
 
-/// Default time limit of a build, a ray or a batch of 256 rays. Each of them takes far less if it does not hang.
+/// Default time limit of a build, of a query of one ray, or of a query of a batch.
 pub const LIMIT: Duration = Duration::from_secs(120);
 
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// The reason why work on a watched thread has no result.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WatchError {
-    /// It took longer than the limit.
     #[error("it hangs: no result within {0:?}")]
     Hangs(Duration),
-    /// It panicked.
     #[error("it panics: {0}")]
     Panicked(String),
 }
@@ -36,7 +33,7 @@ pub enum WatchError {
 /// Runs `work` on a separate thread and waits for at most `limit`.
 ///
 /// # Errors
-/// If the work panics, or takes longer than `limit`. After the limit, the thread of the work is left behind.
+/// If the work panics, or takes longer than `limit`. After the limit, the thread of the work continues.
 pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Send + 'static) -> Result<R, WatchError> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
@@ -50,18 +47,15 @@ pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Se
     }
 }
 
-/// A comparison, shared by threads that take its batches in order.
 struct Comparison {
     subject: Arc<dyn DynAccel>,
     reference: Arc<Reference>,
     mesh: Arc<Mesh>,
     rays: Vec<Ray>,
-    /// The hits of the reference.
     expected: Vec<Option<Hit>>,
     next: AtomicUsize,
 }
 
-/// The batch that a thread compares, and the running query.
 #[derive(Default)]
 struct ThreadState {
     batch: AtomicUsize,
@@ -75,11 +69,10 @@ impl Comparison {
     }
 }
 
-/// Like [`validate`](super::validate), but the comparison ends when the structure takes longer than `limit` for one ray
-/// or for a batch of 256 rays. The result then contains the finished batches and the hang, with its ray or with the
-/// first ray of its batch. `expected` are the hits of `reference` for `rays`.
+/// Like [`validate`](super::validate), but ends if a query of a ray or of a batch takes longer than `limit`. The result
+/// then contains the finished batches and the hang. `expected` are the hits of `reference` for `rays`.
 ///
-/// Runs on as many separate threads as the machine has processors. A hanging thread is left behind.
+/// Runs on as many separate threads as the machine has processors.
 pub fn validate_watched(
     subject: &Arc<dyn DynAccel>,
     reference: &Arc<Reference>,
@@ -88,13 +81,13 @@ pub fn validate_watched(
     rays: &[Ray],
     limit: Duration,
 ) -> Validation {
-    let (admitted, expected) = admitted(subject.as_ref(), rays, expected);
-    let declined = rays.len() - admitted.len();
+    let (not_declined, expected) = not_declined(subject.as_ref(), rays, expected);
+    let declined = rays.len() - not_declined.len();
     let comparison = Arc::new(Comparison {
         subject: Arc::clone(subject),
         reference: Arc::clone(reference),
         mesh: Arc::clone(mesh),
-        rays: admitted,
+        rays: not_declined,
         expected,
         next: AtomicUsize::new(0),
     });

@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The time limit of a reply; a reply is much faster, even on a busy machine.
-const HANGS: Duration = Duration::from_secs(300);
+/// The time limit of a reply.
+const TIMEOUT: Duration = Duration::from_secs(300);
 
 pub struct Chromium {
     process: Child,
@@ -41,15 +41,14 @@ const KEYS: [(&str, u32, &str); 12] = [
 ];
 
 impl Chromium {
-    /// Starts Chromium. If it is not installed, prints a message and returns `None`.
+    /// `None` if Chromium is not installed.
     pub fn launch() -> Option<Self> {
-        // Names of the program on various systems.
         let program = ["chromium", "chromium-browser", "google-chrome"].iter().find_map(|name| on_path(name));
         if program.is_none() {
             eprintln!("skipped: no chromium on the path");
         }
         let profile = TempDir::new().unwrap();
-        // Chromium reads requests from descriptor 3 and writes replies to 4. The shell connects them to our pipes.
+        // Chromium reads requests from descriptor 3 and writes replies to descriptor 4.
         let mut process = Command::new("sh")
             .args(["-c", "exec \"$0\" \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>/dev/null"])
             .arg(program?)
@@ -93,7 +92,7 @@ impl Chromium {
         }
         self.requests.write_all(format!("{request}\0").as_bytes()).expect("the browser listens");
         loop {
-            let message = self.messages.recv_timeout(HANGS).unwrap_or_else(|_| panic!("no answer to {method}"));
+            let message = self.messages.recv_timeout(TIMEOUT).unwrap_or_else(|_| panic!("no answer to {method}"));
             if message["id"] != self.last {
                 self.events.push(message);
                 continue;
@@ -103,7 +102,7 @@ impl Chromium {
         }
     }
 
-    /// Shows a page `width` pixels wide, in dark or light mode, and waits until it is loaded.
+    /// Waits until the page is loaded. `width` is in pixels.
     pub fn open(&mut self, page: &Path, width: u32, dark: bool) {
         let size = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", size);
@@ -115,7 +114,6 @@ impl Chromium {
         }
     }
 
-    /// The value of a JavaScript expression.
     pub fn evaluate(&mut self, expression: &str) -> Value {
         let request = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
         let result = self.call("Runtime.evaluate", request);
@@ -127,7 +125,7 @@ impl Chromium {
         self.evaluate(expression).as_str().unwrap_or_else(|| panic!("{expression} is not a string")).to_owned()
     }
 
-    /// Waits until `is_wanted` accepts the text of an expression. Returns this text.
+    /// Waits until `is_wanted` accepts the text.
     pub fn text_once(&mut self, expression: &str, is_wanted: impl Fn(&str) -> bool) -> String {
         let begun = Instant::now();
         loop {
@@ -135,7 +133,7 @@ impl Chromium {
             if is_wanted(&text) {
                 return text;
             }
-            assert!(begun.elapsed() < HANGS, "{expression} stays {text}");
+            assert!(begun.elapsed() < TIMEOUT, "{expression} stays {text}");
             thread::sleep(Duration::from_millis(10));
         }
     }
@@ -149,7 +147,7 @@ impl Chromium {
         }
     }
 
-    /// Clicks on the first element that matches `selector`, at fractions of its width and height from the top left.
+    /// `across` and `down` are fractions of the element's width and height, from the top left.
     pub fn click(&mut self, selector: &str, [across, down]: [f64; 2]) {
         let place = self.evaluate(&format!(
             "(() => {{ const e = document.querySelector('{selector}'); e.scrollIntoView({{ block: 'center' }}); \
@@ -163,17 +161,18 @@ impl Chromium {
 
     /// The console messages of the page, its errors, and its requests to the network.
     fn complaints(&self) -> Vec<String> {
-        let asked = |event: &Value| {
+        let is_network_request = |event: &Value| {
             let url = event["params"]["request"]["url"].as_str().unwrap_or_default();
             event["method"] == "Network.requestWillBeSent" && !url.starts_with("file:") && !url.starts_with("data:")
         };
-        let said = ["Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded"];
-        let is_complaint = |event: &&Value| said.iter().any(|method| event["method"] == *method) || asked(event);
+        let complaints = ["Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded"];
+        let is_complaint =
+            |event: &&Value| complaints.iter().any(|method| event["method"] == *method) || is_network_request(event);
         self.events.iter().filter(is_complaint).map(Value::to_string).collect()
     }
 }
 
-/// Ends the browser. Fails the test if `complaints` returns any.
+/// Fails the test if the page has complaints.
 impl Drop for Chromium {
     fn drop(&mut self) {
         let _ = self.process.kill();

@@ -11,7 +11,7 @@ use super::{assert_readable_everywhere, tab_to};
 use crate::cli::command::{Folder, WRONG};
 use crate::controls::{SIZE, pictures};
 
-/// The headings of the page before "Identical", in order: first the failing pictures, then the accepted ones.
+/// The headings before "Identical". The failing pictures come first, then the accepted ones.
 const NAMES: [&str; 7] = ["0.png", "1.png", "2.png", "3.png", "gone.png", "4.png", "5.png"];
 
 fn page() -> PathBuf {
@@ -23,7 +23,7 @@ fn page() -> PathBuf {
             add(&format!("a/{i}.png"), &right);
             add(&format!("b/{i}.png"), other);
         }
-        // One picture is identical, and one is missing in `b`. The tolerance accepts `4.png` and `5.png`.
+        // The tolerance accepts `4.png` and `5.png`.
         ["a/same.png", "b/same.png", "a/gone.png"].iter().for_each(|name| add(name, &right));
         folder.ends(WRONG, "golden compare a b --max-difference 2 --page page");
         folder
@@ -31,13 +31,12 @@ fn page() -> PathBuf {
     PAGE.path("page/index.html")
 }
 
-/// Waits until the values of the selected pixel of a comparison are loaded. Returns the text about this pixel.
+/// Waits until the values of the selected pixel are loaded.
 fn pixel(browser: &mut Chromium, number: usize) -> String {
     let text = format!("document.querySelector('#comparison-{number} .pixel').textContent");
-    browser.text_once(&text, |said| said.contains("expected"))
+    browser.text_once(&text, |shown| shown.contains("expected"))
 }
 
-/// The JavaScript expression for a CSS variable of the first comparison.
 fn property(name: &str) -> String {
     format!("document.querySelector('#comparison-0 .stage').style.getPropertyValue('--{name}')")
 }
@@ -52,21 +51,21 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
 
     // At first, the worst pixel is selected.
     let (right, others) = pictures();
-    let said = |[x, y]: [u32; 2]| {
+    let expected = |[x, y]: [u32; 2]| {
         let [expected, actual] = [&right, &others[0].1]
             .map(|picture| picture.as_rgb8().unwrap().get_pixel(x, y).0.map(|value| value.to_string()).join(", "));
         format!("Column {x}, row {y}: expected {expected}; actual {actual}")
     };
-    assert_eq!(pixel(&mut browser, 0), said([100, 80]));
+    assert_eq!(pixel(&mut browser, 0), expected([100, 80]));
     tab_to(&mut browser, "#comparison-0 .stage");
     browser.press("ArrowRight");
     browser.press("ArrowUp");
-    assert_eq!(pixel(&mut browser, 0), said([101, 79]));
+    assert_eq!(pixel(&mut browser, 0), expected([101, 79]));
 
     // `w` selects and zooms to the worst pixel, `z` resets the zoom, and `b` alternates between the two pictures.
     assert!(browser.text(&property("zoom")).ends_with("scale(1)"));
     browser.press("w");
-    assert_eq!(pixel(&mut browser, 0), said([100, 80]));
+    assert_eq!(pixel(&mut browser, 0), expected([100, 80]));
     assert!(browser.text(&property("zoom")).ends_with("scale(12)"), "{}", SIZE[1] / 16);
     browser.press("z");
     assert!(browser.text(&property("zoom")).ends_with("scale(1)"));
@@ -77,12 +76,10 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     }
     browser.press("b");
     assert_eq!(browser.text(&property("cut")), "50%");
-    // The slider moves the border between the two pictures.
     tab_to(&mut browser, "#comparison-0 input");
     browser.press("ArrowLeft");
     assert_eq!(browser.text(&property("cut")), "49%");
 
-    // `n` moves to the next comparison. In the comparison after it, a list selects the shown picture.
     browser.press("n");
     let own = "document.activeElement.closest('section').id";
     assert_eq!(browser.text(own), "comparison-1");
@@ -97,11 +94,11 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
 fn the_pointer_shows_values_and_the_page_is_read_in_light_and_dark_on_a_desk_and_on_a_telephone() {
     assert_readable_everywhere(page, |browser| {
         browser.click("#comparison-2 .stage", [0.25, 0.75]);
-        let said = pixel(browser, 2);
+        let shown = pixel(browser, 2);
         let [column, row] = [SIZE[0] / 4, SIZE[1] * 3 / 4];
-        let at = |x: u32, y: u32| said.starts_with(&format!("Column {x}, row {y}:"));
+        let at = |x: u32, y: u32| shown.starts_with(&format!("Column {x}, row {y}:"));
         let is_near = (column - 1..=column + 1).any(|x| (row - 1..=row + 1).any(|y| at(x, y)));
-        assert!(is_near, "{said}");
+        assert!(is_near, "{shown}");
         let broken = "[...document.images].filter((own) => own.complete && !own.naturalWidth).length";
         assert_eq!(browser.evaluate(broken), 0);
     });

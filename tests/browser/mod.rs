@@ -9,10 +9,10 @@ use std::sync::LazyLock;
 
 use serde_json::json;
 
-use crate::cli::command::{Folder, command, said};
+use crate::cli::command::{Folder, command, output_texts};
 use chromium::Chromium;
 
-/// The page of a report on a torus and a cube. Some of its structures have wrong hits in some pixels.
+/// Some structures of this report have wrong hits in some pixels.
 fn report() -> PathBuf {
     static REPORT: LazyLock<Folder> = LazyLock::new(|| {
         let folder = Folder::new();
@@ -25,7 +25,6 @@ fn report() -> PathBuf {
     REPORT.path("page/index.html")
 }
 
-/// Presses Tab until the selected element has the focus.
 fn tab_to(browser: &mut Chromium, selector: &str) {
     for _ in 0..500 {
         browser.press("Tab");
@@ -41,14 +40,13 @@ const ERRORS: &str = "#figure-errors-torus";
 
 /// Column and row of the pixel that a figure shows.
 fn pixel(browser: &mut Chromium, figure: &str) -> [i64; 2] {
-    let said = browser.text(&format!("document.querySelector('{figure} .pixel').textContent"));
-    let numbers = said.strip_prefix("Pixel ").and_then(|rest| rest.split(" from").next());
-    let numbers = numbers.unwrap_or_else(|| panic!("no pixel: {said}"));
+    let shown = browser.text(&format!("document.querySelector('{figure} .pixel').textContent"));
+    let numbers = shown.strip_prefix("Pixel ").and_then(|rest| rest.split(" from").next());
+    let numbers = numbers.unwrap_or_else(|| panic!("no pixel: {shown}"));
     let (column, row) = numbers.split_once(", ").unwrap();
     [column, row].map(|number| number.parse().unwrap())
 }
 
-/// The cells of the table in the ray inspector of a figure, by row.
 fn rows(browser: &mut Chromium, figure: &str) -> Vec<Vec<String>> {
     let rows = browser.evaluate(&format!(
         "[...document.querySelectorAll('{figure} .inspector tbody tr')].map((row) => [...row.cells].map((cell) => cell.textContent))"
@@ -56,10 +54,9 @@ fn rows(browser: &mut Chromium, figure: &str) -> Vec<Vec<String>> {
     serde_json::from_value(rows).unwrap()
 }
 
-/// Runs the command that the ray inspector of a figure shows. Returns its output.
 fn inspector_output(browser: &mut Chromium, figure: &str) -> String {
     let line = browser.text(&format!("document.querySelector('{figure} .inspector code').textContent"));
-    let [text, _] = said(&command(line.strip_prefix("sahara ").expect("a command")).output().unwrap());
+    let [text, _] = output_texts(&command(line.strip_prefix("sahara ").expect("a command")).output().unwrap());
     text
 }
 
@@ -79,7 +76,6 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     }
     assert_eq!(pixel(&mut browser, HEAT), start);
 
-    // Move down to a pixel with a hit.
     for _ in 0..30 {
         if rows(&mut browser, HEAT)[0][4] != "no hit" {
             break;
@@ -102,8 +98,8 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     browser.press("Enter");
     // The page copies the command asynchronously.
     let text = format!("document.querySelector('{HEAT} .pixel').textContent");
-    let said = browser.text_once(&text, |said| said.starts_with("Command "));
-    assert!(said.contains("copied") || said.contains("selected"), "{said}");
+    let shown = browser.text_once(&text, |shown| shown.starts_with("Command "));
+    assert!(shown.contains("copied") || shown.contains("selected"), "{shown}");
 }
 
 #[test]
@@ -116,12 +112,12 @@ fn a_click_asks_the_nearest_pixel_of_any_picture() {
         let off = [column as f64 - 320.0 * across, row as f64 - 320.0 * down];
         assert!(off.iter().all(|off| off.abs() < 8.0), "{column}, {row}");
     }
-    // A click on the border between two structures, which is in the middle, selects no pixel.
+    // A click on the border between two structures selects no pixel.
     let before = pixel(&mut browser, HEAT);
     browser.click(&format!("{HEAT} .stage"), [0.5, 0.9]);
     assert_eq!(pixel(&mut browser, HEAT), before);
 
-    // In a picture of errors, only pixels on which a structure is wrong can be selected.
+    // In a picture of errors, only pixels with a wrong hit can be selected.
     browser.click(&format!("{ERRORS} .stage"), [0.9, 0.9]);
     for _ in 0..5 {
         let shown = rows(&mut browser, ERRORS);
@@ -133,13 +129,12 @@ fn a_click_asks_the_nearest_pixel_of_any_picture() {
     }
 }
 
-/// A script that returns the texts whose contrast with their background is below WCAG's limit, with their contrast.
+/// A script that returns the texts whose contrast is below the limit of WCAG.
 const PALE: &str = include_str!("pale.js");
 
-/// A script that reports a page wider than the window, and columns of ratios that are visible only after scrolling.
+/// A script that reports a page that is too wide, and columns of ratios that need scrolling.
 const WIDE: &str = include_str!("wide.js");
 
-/// Opens a page at desktop and phone width, in light and dark mode: `look` and both scripts must find no fault.
 fn assert_readable_everywhere(page: impl Fn() -> PathBuf, look: impl Fn(&mut Chromium)) {
     let Some(mut browser) = Chromium::launch() else { return };
     for (width, dark) in [(1400, false), (1400, true), (400, false), (400, true)] {

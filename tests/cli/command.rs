@@ -13,11 +13,9 @@ pub const WRONG: i32 = 2;
 pub const REGRESSION: i32 = 3;
 pub const NOT_BUILT: i32 = 5;
 
-/// A mesh of one square.
 pub const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
-/// The command `sahara` with the arguments in `line`, quoted as for a shell. The environment variables for real meshes
-/// and for terminals are removed.
+/// The arguments in `line` are quoted as for a shell.
 pub fn command(line: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sahara"));
     command.args(shlex::split(line).unwrap_or_else(|| panic!("{line}"))).stdin(Stdio::null());
@@ -25,20 +23,19 @@ pub fn command(line: &str) -> Command {
     command
 }
 
-/// Standard output and standard error, as texts.
-pub fn said(output: &Output) -> [String; 2] {
+/// Standard output and standard error.
+pub fn output_texts(output: &Output) -> [String; 2] {
     [&output.stdout, &output.stderr].map(|text| String::from_utf8(text.clone()).expect("output is UTF-8"))
 }
 
-/// Runs a command, which must exit with `status`. Returns its standard output and standard error.
+/// The command must exit with `status`. Returns standard output and standard error.
 #[track_caller]
 pub fn ends(status: i32, command: &mut Command) -> [String; 2] {
     let output = command.output().expect("the command runs");
-    assert_eq!(output.status.code(), Some(status), "{command:?}: {:?}", said(&output));
-    said(&output)
+    assert_eq!(output.status.code(), Some(status), "{command:?}: {:?}", output_texts(&output));
+    output_texts(&output)
 }
 
-/// Checks that a text contains all of `parts`.
 #[track_caller]
 pub fn assert_contains(text: &str, parts: &[&str]) {
     for part in parts {
@@ -46,8 +43,7 @@ pub fn assert_contains(text: &str, parts: &[&str]) {
     }
 }
 
-/// Checks that a command fails, prints no result, and reports an error message that contains all of `parts`. Returns
-/// the message.
+/// Checks that a command fails without a result, and that its error message contains all of `parts`.
 #[track_caller]
 pub fn refused(command: &mut Command, parts: &[&str]) -> String {
     let [text, message] = ends(USAGE, command);
@@ -65,7 +61,7 @@ pub fn refused_in_a_line(command: &mut Command, parts: &[&str]) {
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
-/// The text as a single line: the command may break lines between any words.
+/// The text as a single line, because the command may break lines between any words.
 pub fn unwrapped(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -75,7 +71,6 @@ pub fn json(path: impl AsRef<Path>) -> Value {
     serde_json::from_slice(&fs::read(path).unwrap()).unwrap()
 }
 
-/// A new temporary folder, in which commands run.
 pub struct Folder(TempDir);
 
 impl Folder {
@@ -95,7 +90,6 @@ impl Folder {
         fs::read_to_string(self.path(name)).unwrap()
     }
 
-    /// The sorted names of all files and folders in this folder.
     pub fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.0).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
         let mut names: Vec<String> = entries.collect();
@@ -103,7 +97,6 @@ impl Folder {
         names
     }
 
-    /// Writes an executable file.
     #[cfg(unix)]
     pub fn program(&self, name: &str, text: &str) {
         use std::os::unix::fs::PermissionsExt;
@@ -118,20 +111,17 @@ impl Folder {
         command
     }
 
-    /// See [`ends`].
     #[track_caller]
     pub fn ends(&self, status: i32, line: &str) -> [String; 2] {
         ends(status, &mut self.command(line))
     }
 
-    /// The output of a successful command.
     #[track_caller]
     pub fn prints(&self, line: &str) -> String {
         let [text, _] = self.ends(RIGHT, line);
         text
     }
 
-    /// The output of a successful command, which must contain all of `parts`.
     #[track_caller]
     pub fn shows(&self, line: &str, parts: &[&str]) -> String {
         let text = self.prints(line);
@@ -139,13 +129,11 @@ impl Folder {
         text
     }
 
-    /// See [`refused`].
     #[track_caller]
     pub fn refuses(&self, line: &str, parts: &[&str]) -> String {
         refused(&mut self.command(&format!("--quiet {line}")), parts)
     }
 
-    /// See [`refused_in_a_line`].
     #[track_caller]
     pub fn refuses_in_a_line(&self, line: &str, parts: &[&str]) {
         refused_in_a_line(&mut self.command(&format!("--quiet {line}")), parts);

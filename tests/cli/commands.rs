@@ -1,6 +1,6 @@
-//! Tests error messages, names and standard output of all commands; also `list` and the help texts.
+//! Tests error messages, lists, help texts and standard output of all commands.
 
-use super::command::{Folder, RIGHT, SQUARE, assert_contains, command, ends, said, unwrapped};
+use super::command::{Folder, RIGHT, SQUARE, assert_contains, command, ends, output_texts, unwrapped};
 
 #[test]
 fn what_is_not_known_is_refused_with_what_is() {
@@ -101,7 +101,6 @@ fn lists_name_everything() {
 
 #[test]
 fn the_first_help_fits_a_screen_and_compare_has_a_short_help_and_a_whole_one_in_groups() {
-    // The lines of a help text on a screen of 80 columns.
     let help = |line: &str| {
         let [text, _] = ends(RIGHT, command(line).env("COLUMNS", "80"));
         text.lines().map(String::from).collect::<Vec<_>>()
@@ -143,7 +142,7 @@ fn old_names_are_answered_with_the_new_ones() {
 
 #[test]
 fn a_minus_stands_for_standard_output_and_case_does_not_matter() {
-    // Standard output has only the result; messages go to standard error.
+    // Standard output has only the result. Messages go to standard error.
     let folder = Folder::new();
     for (line, magic, message) in [
         ("render CUBE -o - --view DEPTH -s Sah-KD:test=Exact --size 4x4", &b"\x89PNG"[..], "depth view of Cube"),
@@ -155,7 +154,7 @@ fn a_minus_stands_for_standard_output_and_case_does_not_matter() {
         assert_eq!(output.status.code(), Some(RIGHT), "{messages}");
         assert!(output.stdout.starts_with(magic) && messages.contains(message), "{line}: {messages}");
         if magic == b"{" {
-            let [json, _] = said(&output);
+            let [json, _] = output_texts(&output);
             let dataset: serde_json::Value = serde_json::from_str(&json).expect("JSON and nothing else");
             let structures = dataset["measured"][0]["epoch"]["structures"].as_array().unwrap();
             assert_eq!(structures.len(), 3, "two and a twin: {dataset}");

@@ -1,4 +1,4 @@
-//! `sahara compare`: files, winners, colours, odd meshes.
+//! Tests `sahara compare`: files, winners, colours, odd meshes.
 
 use std::collections::HashSet;
 
@@ -9,7 +9,6 @@ use sahara::request::{is_obvhs, known_defect};
 use super::command::{Folder, NOT_BUILT, RIGHT, SQUARE, assert_contains, command, ends, json, unwrapped};
 use super::journal::rows;
 
-/// Options of a short comparison.
 const SMALL: &str = "--rays 400 --runs 2 --budget 1 -w primary -w shadow";
 
 /// The structures that are compared by default, without the peers that features add.
@@ -103,7 +102,7 @@ fn tables_stand_alone_and_notes_are_counted_unless_all_is_asked_for() {
     // Each table has a title, a header, and a row for each of three structures.
     assert!(blocks.len() == 3 && blocks.iter().all(|table| table.len() == 2 + 3), "{brief}");
     let (count, foot) = foot.split_last().unwrap();
-    assert!(foot.len() <= 5 && count.ends_with(" notes: --verbose shows them"), "{brief}");
+    assert!(foot.len() <= 6 && count.ends_with(" notes: --verbose shows them"), "{brief}");
     let notes: usize = count.split(' ').next().unwrap().parse().unwrap();
 
     let verbose = Folder::new().prints(&format!("{run} --verbose"));

@@ -1,4 +1,4 @@
-//! Tests `rays corpus`: it writes the same files on every machine, and other programs and sahara can read them.
+//! Tests `rays corpus`: the files are reproducible and readable.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -7,20 +7,19 @@ use std::process::Command;
 
 use sahara::scene::files::RayFile;
 
-use super::command::{Folder, RIGHT, SQUARE, ends, said};
+use super::command::{Folder, RIGHT, SQUARE, ends, output_texts};
 
-/// The contents of all files of a folder, by name.
 pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
     entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
 }
 
-/// The output of `sha256sum -c` for the files of a folder; `None` if the program is missing.
+/// The output of `sha256sum -c`. `None` if the program is missing.
 fn checked(folder: &Path) -> Option<String> {
     let mut sha256sum = Command::new("sha256sum");
     sha256sum.args(["-c", "--strict", "SHA256SUMS"]).env("LC_ALL", "C").current_dir(folder);
     let output = sha256sum.output().ok()?;
-    let [text, messages] = said(&output);
+    let [text, messages] = output_texts(&output);
     assert!(output.status.success(), "{text}{messages}");
     Some(text)
 }
@@ -32,7 +31,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     let printed = folder.shows("rays corpus cube -o d --rays 40", &["Cube", "320"]);
     assert!(!printed.contains("published"), "{printed}");
     let first = corpus();
-    // A mesh, eight files of rays, eight files of their exact hits, the hashes and the list of stand-ins.
+    // One mesh, eight files of rays, eight files of exact hits, and two lists.
     assert_eq!(first.len(), 1 + 2 * 8 + 2, "{:?}", first.keys());
     if let Some(text) = checked(&folder.path("d")) {
         let names: Vec<&str> = text.lines().map(|line| line.strip_suffix(": OK").unwrap()).collect();
@@ -42,7 +41,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
         println!("not checked: there is no sha256sum here");
     }
 
-    // Another number of threads and another SIMD level give the same corpus; a repeated scene counts once.
+    // Thread count and SIMD level do not change the corpus. A repeated scene counts once.
     let mut again = folder.command("rays corpus CUBE cube -o d --rays 40 --level portable");
     let [again, _] = ends(RIGHT, again.env("RAYON_NUM_THREADS", "1"));
     assert!(again == printed && corpus() == first, "it is another one: {again}");

@@ -1,5 +1,4 @@
-//! Tests studies of several epochs: the files that they keep and add. Also tests that each epoch of a scene is measured
-//! in a separate process.
+//! Tests studies of several epochs: their files, and a separate process per epoch.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -30,13 +29,13 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
         // A removed case is measured again.
         fs::remove_file(&cases()[0]).unwrap();
         assert_eq!(run("2").1, 2 * measured, "{study}");
-        // Other settings and repeated measurements add files and keep the existing files.
+        // Other settings and repeated measurements add files.
         assert_eq!(run("1 --seed 2").1, 3 * measured, "{study}");
         assert_eq!(run("1 --fresh").1, 4 * measured, "{study}");
     }
 }
 
-/// A study of six epochs that takes some seconds, with its journal in `dir`.
+/// A study that takes some seconds.
 fn study(folder: &Folder, dir: &str) -> Command {
     let small = "study attribution cube --rays 64 --runs 1 --budget 1 --epochs 6 --quiet --dir";
     let mut command = folder.command(&format!("{small} {dir}"));
@@ -62,7 +61,6 @@ fn a_killed_study_ends_as_one_that_was_left_alone() {
     ends(RIGHT, &mut study(&folder, "alone"));
     let [alone, killed] = ["alone", "killed"].map(|name| folder.path(name));
 
-    // Kill the study after one case, and the resumed study after a second one.
     for wanted in [1, 2] {
         kill_at(study(&folder, "killed").spawn().unwrap(), &killed, wanted);
     }

@@ -1,16 +1,18 @@
-//! Tests the gate with the script and the commands of GATE.md. A runner with prescribed times replaces the structure.
+//! Tests the regression gate with the script and the commands of GATE.md.
+//!
+//! A runner with prescribed times replaces the structure.
 #![cfg(unix)]
 
 use std::fs;
 use std::process::{Command, Output};
 
-use super::command::{Folder, REGRESSION, RIGHT, said};
+use super::command::{Folder, REGRESSION, RIGHT, output_texts};
 use super::runner::NOTHING;
 
 const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
 
-/// A folder with `gate.sh`, which is the script of GATE.md with changes. It traces 64 rays that miss the cube, in fewer
-/// epochs. It measures the structure `only` with additional `options`, and the runner `steady` as the reference.
+/// A folder with `gate.sh`, a shorter version of the script of GATE.md. The script compares the structure `only` with
+/// the runner `steady`.
 fn gated(only: &str, options: &str) -> Folder {
     let folder = Folder::new();
     folder.write("away.txt", "9,9,9 0,0,1\n".repeat(64));
@@ -37,20 +39,18 @@ fn arguments(nth: usize) -> &'static str {
     DOCUMENT.lines().filter_map(|line| line.trim().strip_prefix("- run: sh gate.sh ")).nth(nth).unwrap()
 }
 
-/// Runs a shell command in a folder, which is also `RUNNER_TEMP`.
 fn shell(folder: &Folder, line: &str) -> Output {
     let mut shell = Command::new("sh");
     shell.args(["-c", line]).env("RUNNER_TEMP", folder.path("")).current_dir(folder.path("")).output().unwrap()
 }
 
 /// Makes the `nth` call of the script in GATE.md. `base` and `branch` contain the seconds per pass in even epochs and
-/// in odd epochs. Returns the output, and the number of epochs that were measured on the branch.
+/// in odd epochs. Returns the output and the number of epochs that were measured on the branch.
 fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let command = arguments(nth);
     // The prefix `my-` is needed because a runner must not have the name of a structure.
     let folder = gated("my-$name", "--runner my-$name=$RUNNER_TEMP/told.sh");
-    // Each epoch has a process, the parent of the runner and of its twin. The file `STARTS` lists these parents: lines
-    // 1, 3, .. are the even epochs, lines 2, 4, .. the odd ones.
+    // Each epoch has a process, which starts the runner. Line n of `STARTS` contains the process of epoch n - 1.
     let starts = "grep -qx $PPID \"$STARTS\" 2>/dev/null || echo $PPID >> \"$STARTS\"\n\
                   n=$(grep -nx $PPID \"$STARTS\" | cut -d: -f1)\n\
                   if [ $((n % 2)) -eq 1 ]; then own=$EVEN; else own=$ODD; fi\n";
@@ -74,12 +74,12 @@ fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cann
     for (nth, base, branch, status, epochs, verdict) in [
         (0, [0.001; 2], [0.001; 2], RIGHT, 3, "my-sah-hybrid (own clock): right on 64 checked rays; no change"),
         (0, [0.001; 2], [0.0012; 2], REGRESSION, 3, "% slower"),
-        // On the branch, odd epochs are much slower than even ones, so six epochs are inconclusive as well.
+        // Odd epochs of the branch are much slower than even ones, so six epochs are also inconclusive.
         (0, [0.001; 2], [0.0004, 0.0025], RIGHT, 6, "inconclusive"),
         (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "my-mybvh (own clock): right on 64 checked rays;"),
     ] {
         let (output, measured) = gate(nth, base, branch);
-        let text = said(&output).concat();
+        let text = output_texts(&output).concat();
         assert_eq!((output.status.code(), measured), (Some(status), epochs), "{base:?} {branch:?}: {text}");
         assert!(text.contains(verdict), "{verdict:?} is not in {text}");
     }
@@ -94,7 +94,7 @@ fn one_sahara_gates_a_program() {
         folder.program("bvh", &NOTHING.replace("passed 0.001", &format!("passed {seconds}")));
         folder.program("bin/sahara", &format!("#!/bin/sh\nexec {} \"$@\"\n", env!("CARGO_BIN_EXE_sahara")));
         let output = shell(&folder, &format!("PATH=$PWD/bin:$PATH sh gate.sh {}", arguments(2)));
-        let text = said(&output).concat();
+        let text = output_texts(&output).concat();
         assert!(output.status.code() == Some(status) && text.contains(verdict), "{seconds}: {text}");
     }
 }

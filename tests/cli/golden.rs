@@ -1,4 +1,4 @@
-//! `golden`: pictures of any renderer, and golden images of any scene.
+//! Tests `golden`: pictures of any renderer, and golden images of any scene.
 
 use std::fs;
 
@@ -15,7 +15,6 @@ impl Folder {
         write_picture(&self.path(name), &picture.into()).unwrap();
     }
 
-    /// Compares the folders `expected` and `actual`; the command must exit with `status`. Returns its output.
     #[track_caller]
     fn compare(&self, options: &str, status: i32) -> String {
         let [text, _] = self.ends(status, &format!("golden compare expected actual {options}"));
@@ -90,7 +89,7 @@ fn folders_of_pictures_are_compared_by_name() {
     assert_eq!([&measures["pixels"], &measures["pixels_over"], &measures["compared"]], [9, 0, 1200]);
     assert!(measures["flip"]["mean"].as_f64() > Some(0.0) && measures["ssim"].as_f64() < Some(1.0), "{measures}");
 
-    // A damaged picture fails; all other pictures are compared.
+    // A damaged picture fails, and all other pictures are compared.
     folder.write("actual/same.png", "no picture");
     assert_contains(&folder.compare("--max-difference 2", USAGE), &["same.png: cannot read", "1 failed"]);
     // A difference determines the exit status, even if a picture is damaged.
@@ -163,7 +162,6 @@ fn what_is_black_in_the_mask_is_not_compared() {
     assert!(message.contains("the mask has 4 x 3 pixels"), "{message}");
 }
 
-/// A folder with the scene of a user in `mine.toml`.
 fn with_a_scene() -> Folder {
     let folder = Folder::new();
     folder.write(
@@ -223,7 +221,6 @@ fn scene_files_and_meshes_have_golden_images_beside_them() {
     update("--force");
     folder.prints(&check(""));
 
-    // Golden images in the folder of `--goldens`.
     for action in ["update", "check"] {
         folder.prints(&format!("golden {action} cube --size 16x16 --view normal --goldens goldens -s sah-hybrid"));
         assert!(folder.path("goldens/cube.normal.golden.png").exists());

@@ -1,5 +1,4 @@
-//! Tests mesh files from users: the messages about faults and omitted content. Also tests generated terrain: the memory
-//! of builds, and scene files without a mesh file.
+//! Tests mesh files with faults, the memory of builds, and generated terrain.
 
 use std::fs;
 
@@ -40,7 +39,7 @@ fn what_cannot_be_shown_is_refused_by_its_reason() {
     }
 }
 
-/// A folder with `ground.toml`, a scene file whose terrain has this many triangles.
+/// A folder with the scene file `ground.toml`.
 fn terrain(triangles: &str) -> Folder {
     let folder = Folder::new();
     let text = format!(
@@ -52,7 +51,7 @@ fn terrain(triangles: &str) -> Folder {
     folder
 }
 
-/// The limit of bytes per triangle that a build of this crate may allocate in addition to the mesh.
+/// The maximum number of bytes per triangle that a build may allocate in addition to the mesh.
 const BOUND: f64 = 200.0;
 
 #[test]

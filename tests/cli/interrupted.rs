@@ -1,4 +1,4 @@
-//! A run prints its tables scene by scene. A run that Ctrl-C interrupts prints its results; a journal resumes it.
+//! Tests runs that a signal interrupts.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -17,7 +17,7 @@ use super::runner::NOTHING;
 
 const CASES: usize = 16;
 
-/// A comparison that takes some seconds. The larger scene is named first.
+/// A comparison that takes some seconds.
 fn compare(folder: &Folder, more: &str) -> Command {
     let small = "compare torus cube -s sah-kd -s sah-bvh -w primary --rays 256 --epochs 8";
     let mut command = folder.command(&format!("{small} {more}"));
@@ -25,7 +25,7 @@ fn compare(folder: &Folder, more: &str) -> Command {
     command
 }
 
-/// Starts a program with the handling `handler` of SIGINT and SIGTERM, independent of the handling in this process.
+/// Sets the handling of SIGINT and SIGTERM, because the child inherits ignored signals from this process.
 fn spawn(mut command: Command, handler: SigHandler) -> Child {
     // SAFETY: setting the action of a signal is async-signal-safe, and the closure allocates no memory.
     unsafe {
@@ -39,7 +39,7 @@ fn spawn(mut command: Command, handler: SigHandler) -> Child {
     command.spawn().unwrap()
 }
 
-/// Interrupts a run after its first table, the table of the cube. Returns its exit status and its whole output.
+/// Interrupts a run after its first table, the table of the cube.
 fn signalled(folder: &Folder, more: &str, handler: SigHandler) -> (ExitStatus, String) {
     let mut child = spawn(compare(folder, more), handler);
     let mut reader = BufReader::new(child.stdout.take().unwrap());
@@ -53,18 +53,18 @@ fn signalled(folder: &Folder, more: &str, handler: SigHandler) -> (ExitStatus, S
     (child.wait().unwrap(), text)
 }
 
-/// The output of a run that SIGINT ends.
 fn interrupted(folder: &Folder, more: &str) -> String {
     let (status, text) = signalled(folder, more, SigHandler::SigDfl);
     assert_eq!(status.signal(), Some(Signal::SIGINT as i32), "{text}");
     text
 }
 
-/// The number of cases that an interrupted run reports as measured: 8 of the cube, fewer than 8 of the torus.
+/// All 8 cases of the cube are measured, and fewer than 8 cases of the torus.
 fn measured(text: &str) -> usize {
-    let said = text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("no line about the interruption: {text}"));
-    let number = said.split(' ').next().unwrap().parse().unwrap();
-    assert!(said.contains(&format!(" of {CASES} cases")) && (8..CASES).contains(&number), "{text}");
+    let progress =
+        text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("no line about the interruption: {text}"));
+    let number = progress.split(' ').next().unwrap().parse().unwrap();
+    assert!(progress.contains(&format!(" of {CASES} cases")) && (8..CASES).contains(&number), "{text}");
     number
 }
 
@@ -75,7 +75,7 @@ fn processes(folder: &Folder) -> usize {
     entries.filter(|entry| fs::read_link(entry.path().join("cwd")).is_ok_and(|cwd| cwd == folder)).count()
 }
 
-/// Waits until no process works in a folder, because the system takes a moment to remove a killed process.
+/// Waits, because the system takes a moment to remove a killed process.
 #[track_caller]
 fn wait_until_no_process(folder: &Folder) {
     let is_left = (0..500).any(|_| {
@@ -107,8 +107,8 @@ fn a_journal_that_was_interrupted_is_only_added_to() {
     assert!(whole.len() == CASES && kept.iter().all(|(name, bytes)| whole.get(name) == Some(bytes)));
 }
 
-/// Checks that a process prints `message`, and that `signal` then ends it at once. The exit status must name the
-/// signal, as if the process had not caught it: only then does a shell end its script.
+/// Checks that `signal` ends a process after `message`. The exit status must name the signal, because only then does a
+/// shell end its script.
 #[track_caller]
 fn ends_by(signal: Signal, command: Command, message: &str) {
     let mut child = spawn(command, SigHandler::SigDfl);

@@ -1,4 +1,4 @@
-//! Files of any name that the system supports: accepted unchanged, printed escaped.
+//! Tests file names that are not UTF-8 or contain control characters.
 
 use std::ffi::{OsStr, OsString};
 use std::os::unix::ffi::OsStrExt;
@@ -15,7 +15,6 @@ fn files_of_any_name_are_taken_and_shown_escaped() {
         let folder = Folder::new();
         let with_ending = |ending: &str| [OsStr::from_bytes(name), ending.as_ref()].into_iter().collect::<OsString>();
         let path = |ending: &str| folder.path("").join(with_ending(ending));
-        // Runs a command and returns its output and messages, which must not contain control characters of the name.
         // In `line`, `@.obj` is the file with this name and extension.
         let run = |line: &str, status: i32| {
             let words = line.split(' ').map(|word| word.strip_prefix('@').map_or(word.into(), with_ending));

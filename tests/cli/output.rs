@@ -1,19 +1,18 @@
-//! Tests the exit status if the output cannot be written, and that a panic of a builder prints no backtrace.
+//! Tests the exit status if output cannot be written, and panics of builders.
 
 use std::fs::File;
 use std::process::Command;
 
-use super::command::{Folder, NOT_BUILT, RIGHT, USAGE, WRONG, ends, said};
+use super::command::{Folder, NOT_BUILT, RIGHT, USAGE, WRONG, ends, output_texts};
 
-/// The exit status of a command, which must not panic.
 fn status(command: &mut Command) -> i32 {
     let output = command.output().unwrap();
-    let [_, messages] = said(&output);
+    let [_, messages] = output_texts(&output);
     assert!(!messages.contains("panicked"), "{command:?}: {messages}");
     output.status.code().unwrap_or_else(|| panic!("{command:?} is ended by a signal: {messages}"))
 }
 
-/// A folder with triangles at 2^100 along two axes, in `huge.obj`; the builder of obvhs-cwbvh panics on them.
+/// The builder of obvhs-cwbvh panics on the triangles in `huge.obj`.
 fn huge() -> Folder {
     let (folder, mut text) = (Folder::new(), String::new());
     for corners in [

@@ -1,4 +1,6 @@
-//! Tests `study plan`: it prints independent jobs. Each job writes one file, and the files form the journal of a study.
+//! Tests `study plan`, which prints independent jobs.
+//!
+//! Each job writes one file, and the files form the journal of a study.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,25 +9,22 @@ use std::process::{Command, Output, Stdio};
 
 use sahara::study::{Studies, Study};
 
-use super::command::{Folder, RIGHT, SQUARE, command, ends, json, refused_in_a_line, said};
+use super::command::{Folder, RIGHT, SQUARE, command, ends, json, output_texts, refused_in_a_line};
 use super::journal::answers;
 
-/// A study that takes some seconds.
 const SMALL: &str = "attribution --rays 64 --runs 1 --budget 1 --epochs 2";
 
-/// The lines of a plan.
 pub fn plan(folder: &Path, args: &str) -> Vec<String> {
     Folder::new().prints(&format!("study plan {args} --dir '{}'", folder.display())).lines().map(String::from).collect()
 }
 
-/// The process of a job, with the arguments that a shell would pass.
 pub fn job(line: &str) -> Command {
     let mut command = command(line.strip_prefix("sahara ").unwrap_or_else(|| panic!("{line}")));
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
 
-/// The file that a job writes: the last word of its line.
+/// The file that a job writes.
 pub fn file(line: &str) -> PathBuf {
     let job = job(line);
     let words: Vec<_> = job.get_args().collect();
@@ -35,7 +34,6 @@ pub fn file(line: &str) -> PathBuf {
     file.into()
 }
 
-/// Runs a job, which must succeed; returns its log.
 fn done(line: &str) -> String {
     let [text, log] = ends(RIGHT, &mut job(line));
     assert!(text.is_empty() && file(line).is_file());
@@ -67,7 +65,6 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
     assert_eq!(plan(&dir, "compare compare --scenes cube"), plan(&dir, "compare --scenes cube"));
     assert_eq!(plan(&dir, "compare --scenes torus --scenes cube"), plan(&dir, "compare --scenes torus cube"));
 
-    // Without names, all studies are planned.
     let lines = plan(Path::new("r"), "--quick --scenes cube");
     let files: BTreeSet<PathBuf> = lines.iter().map(|line| file(line)).collect();
     for Study { name, .. } in Studies::builtin().iter() {
@@ -127,7 +124,7 @@ fn jobs_in_any_order_are_the_study() {
     assert_eq!(lines.iter().map(|line| fs::read(file(line)).unwrap()).collect::<Vec<_>>(), before);
     assert_eq!(fs::read_dir(apart.join("attribution")).unwrap().count(), 4);
 
-    // Each file contains its provenance, with the command of the study, not of the job.
+    // The provenance contains the command of the study, not of the job.
     let provenance = &json(file(&lines[0]))["provenance"];
     for field in ["host", "cpu", "commit", "target_features", "date", "command"] {
         assert!(!provenance[field].as_str().unwrap().is_empty(), "{field}");
@@ -142,12 +139,12 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     folder.write("square.obj", SQUARE);
     let mesh = folder.path("square.obj").to_str().unwrap().to_owned();
     let lines = plan(&folder.path(""), &format!("{SMALL} --scenes {mesh}"));
-    // Run two jobs for one file at the same time. One writes the file, and both succeed.
+    // Two jobs for one file run at the same time. One job writes the file, and both jobs succeed.
     let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
     let both = both.map(|child| child.wait_with_output().unwrap());
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
     let is_other = |output: &&Output| {
-        ["already contains this case", "its case is kept"].iter().any(|part| said(output)[1].contains(part))
+        ["already contains this case", "its case is kept"].iter().any(|part| output_texts(output)[1].contains(part))
     };
     assert_eq!(both.iter().filter(is_other).count(), 1, "{both:?}");
     assert_eq!(fs::read_dir(folder.path("attribution")).unwrap().count(), 1);
@@ -162,7 +159,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     refused(&lines[1], &[&mesh]);
     fs::rename(&away, &mesh).unwrap();
 
-    // A job fails if its file contains another case, if its scene has changed, or if it has more threads than cores.
+    // A job fails if its file contains another case, if its scene has changed, or if there are too few cores.
     let hash = &lines[1].split("\"hash\":\"").nth(1).unwrap()[..16];
     for (from, to, part) in [
         (file(&lines[1]).to_str().unwrap(), path.to_str().unwrap(), "contains another case"),

@@ -1,4 +1,4 @@
-//! Tests files of rays and hits: recorded rays are replayed bit for bit, and wrong files are rejected.
+//! Tests files of rays and hits.
 
 use std::fs;
 
@@ -11,7 +11,7 @@ fn a_replayed_workload_is_the_workload() {
     let common = "--runs 2 --budget 2 -s sah-kd -s brute-force";
     for kind in ["diffuse", "shadow"] {
         let printed = folder.prints(&format!("rays record torus -w {kind} -o f.rays"));
-        // `--rays` of `compare` limits only the number of timed rays: the workload stays the same.
+        // `--rays` of `compare` limits only the number of timed rays.
         folder.prints(&format!("compare torus -w {kind} --rays 900 --export-json made.json {common}"));
         folder.prints(&format!("compare --rays f.rays --export-json replayed.json {common}"));
         let [made, replayed] = ["made.json", "replayed.json"].map(|name| rows(folder.path(name)));

@@ -4,7 +4,6 @@ use std::fs;
 
 use super::command::{Folder, assert_contains, unwrapped};
 
-/// A folder with a comparison of the torus in `runs/compare.json`.
 fn runs() -> Folder {
     let folder = Folder::new();
     fs::create_dir(folder.path("runs")).unwrap();
@@ -29,11 +28,10 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
     }
     assert_eq!(folder.names(), ["report", "runs"], "nothing is left beside it");
 
-    // The same runs give the same page.
     folder.prints("report runs -o other");
     assert_eq!(folder.read("other/index.html"), page);
 
-    // The heat scales of the page and of `render` end at the cost of the costliest tree, which is the same tree here.
+    // The page and `render` have the same heat scale, because the costliest tree is the same.
     let scale: u64 = page.split("--hottest ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     let bar = format!("colour bar runs from 0 to {scale} ");
     folder.shows("render torus --view heat -o heat.png", &["512 x 527 pixels", &bar]);

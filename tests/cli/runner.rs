@@ -10,7 +10,7 @@ use super::journal::{cases, rows};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
-/// Applies `change` to the source of the example and compiles it in a folder. `None` without a compiler.
+/// `None` without a compiler.
 fn compiled(name: &str, change: impl Fn(String) -> String) -> Option<Folder> {
     if Command::new("c++").arg("--version").output().is_err() {
         println!("skipped: there is no C++ compiler, `c++`, here");
@@ -26,7 +26,7 @@ fn compiled(name: &str, change: impl Fn(String) -> String) -> Option<Folder> {
 
 const SMALL: &str = "compare cube -s sah-kd -w primary -w shadow --rays 400 --epochs 2 --runner";
 
-/// Runs a command, which must exit with `status`. Returns output and messages as one line, and the rows of the export.
+/// Returns output and messages as one line, and the rows of the export.
 #[track_caller]
 fn records(folder: &Folder, line: &str, status: i32) -> (String, Vec<Value>) {
     let text = folder.ends(status, &format!("{line} --export-json r.json")).concat();
@@ -51,7 +51,7 @@ fn the_example_of_the_document_is_timed_beside_ours() {
         for same in ["hash", "all", "query"] {
             assert_eq!(ours[same], theirs[same]);
         }
-        // Structure and runner have the same number of samples, and their triangle tests disagree on few rays.
+        // The triangle tests of structure and runner may disagree on few rays.
         assert!(theirs["ns"].as_array().unwrap().len() == ours["ns"].as_array().unwrap().len(), "{theirs}");
         let hits = |record: &Value| record["counts"]["hits"].as_f64().unwrap();
         assert!((hits(ours) - hits(theirs)).abs() <= 0.001 * hits(ours), "{ours} {theirs}");
@@ -74,7 +74,7 @@ fn wrong_hits_of_a_program_cost_it_all_its_times_and_nobody_else() {
     assert!(records[2]["checked"]["errors"].as_u64() > Some(0), "{text}");
 }
 
-/// A runner that returns a miss for every ray; its argument selects a fault.
+/// A runner that returns a miss for every ray. Its argument selects a fault.
 pub const NOTHING: &str = include_str!("../runner/nothing.sh");
 
 fn nothing() -> Folder {

@@ -1,4 +1,4 @@
-//! `sahara study`: its output, exports and figures.
+//! Tests `sahara study`: its output, exports and figures.
 
 use serde_json::Value;
 

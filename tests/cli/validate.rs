@@ -1,4 +1,4 @@
-//! `sahara validate`, including its hard cases.
+//! Tests `sahara validate`, including its hard cases.
 
 use super::command::{Folder, RIGHT, SQUARE, WRONG, assert_contains, json, unwrapped};
 
@@ -6,14 +6,13 @@ use super::command::{Folder, RIGHT, SQUARE, WRONG, assert_contains, json, unwrap
 fn validation_tells_right_from_wrong() {
     Folder::new().prints("validate cube torus --rays 2000 -s median-kd -s sah-kd");
 
-    // This ray hits a face of the cube. obvhs-cwbvh loses the hit, because a direction component is -0.0.
+    // obvhs-cwbvh loses the hit of this ray, because a direction component is -0.0.
     let validate =
         |structures: &str| Folder::new().prints(&format!("validate cube --ray '0.5,0.25,5 -0,0,-1' -s {structures}"));
     // Known defects of a baseline are printed and do not change the exit status.
     let defects = "obvhs-cwbvh: known defects (they do not change the exit status)";
-    // The output contains the ray in the format of `--ray`.
     assert_contains(&validate("obvhs-cwbvh --verbose"), &[defects, "0.5,0.25,5.0 -0.0,0.0,-1.0"]);
-    // The command prints the hit of each structure, right or wrong. The front face of the cube is at z = 1.
+    // The front face of the cube is at z = 1.
     let both = validate("sah-kd -s obvhs-cwbvh");
     let row = |name: &str| -> Vec<&str> {
         let mut rows = both.split("Cube: hits").nth(1).expect("a table of hits").lines();
@@ -26,7 +25,7 @@ fn validation_tells_right_from_wrong() {
     validate("sah-kd --against obvhs-bvh2");
 }
 
-/// On a ray along a needle, the depth computed in `f64` is 115 ulps off: far less than 1 %, but an error.
+/// In `f64`, the depth on a needle is 115 ulps off, which is an error.
 #[test]
 fn validation_against_exact_answers_judges_depths_strictly() {
     let folder = Folder::new();
@@ -49,7 +48,6 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
     Folder::new().refuses_in_a_line("validate --hard --test moeller", &["\"moeller\"", "moller-trumbore", "exact"]);
     Folder::new().shows("list hard", &["41 duplicates_20000: 200 rays\n", "84 limits: a property\n"]);
 
-    // Known defects of a baseline do not fail the run.
     let folder = Folder::new();
     let structures = "-s sah-kd -s obvhs-cwbvh --verbose --export-json r.json";
     let text = folder.prints(&format!("validate --hard cube_axis_negzero limits --rays 50 {structures}"));
@@ -68,7 +66,6 @@ fn hard_cases_are_named_and_tell_what_each_structure_gets_wrong() {
     assert_eq!(of("limits", "sah-kd")["property"]["broken"], 0);
     assert!(of("limits", "sah-kd")["rays"].is_null());
 
-    // Hard cases run over the requested triangle tests.
     Folder::new().shows(
         "validate --hard one_triangle --rays 20 --test exact --test edge-f64 -s median-kd --verbose",
         &["median-kd  median-kd:test=edge-f64"],
@@ -91,17 +88,18 @@ fn what_is_named_twice_counts_once() {
 
 #[test]
 fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
-    for (asked, unheeded) in [
+    for (option_in_use, unheeded) in [
         ("--hard limits -s sah-kd", &["--against sah-bvh", "--seed 2", "--inside", "--size 8x8"][..]),
         ("cube --ray '0,0,9 0,0,-1'", &["--rays 9", "--seed 2", "--inside", "--camera '0,0,5 0,0,0'"]),
         ("cube --adversarial", &["--inside", "--size 8x8", "--camera '0,0,5 0,0,0'"]),
         ("cube --hits a.hits --rays a.rays", &["--quality fast", "--limit 3"]),
         ("cube --export-hits a.hits --rays a.rays", &["--against sah-kd"]),
     ] {
-        let option = asked.split(' ').find(|word| word.starts_with("--")).unwrap();
+        let option = option_in_use.split(' ').find(|word| word.starts_with("--")).unwrap();
         for unheeded in unheeded {
             let other = unheeded.split(' ').next().unwrap();
-            Folder::new().refuses(&format!("validate {asked} {unheeded}"), &[option, other, "cannot be used with"]);
+            Folder::new()
+                .refuses(&format!("validate {option_in_use} {unheeded}"), &[option, other, "cannot be used with"]);
         }
     }
     // These rays do not depend on the camera, so no message advises `--inside`.

@@ -1,4 +1,4 @@
-//! `--camera`, `--inside` and `--size` mean the same in all commands with a camera.
+//! Tests `--camera`, `--inside` and `--size` in several commands.
 
 use sahara::image;
 use serde_json::Value;
@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::command::Folder;
 use super::journal::rows;
 
-/// A folder with `room.obj`, a closed box that is longer than wide; the front sides of its triangles face inward.
+/// A closed box that is longer than wide. The front sides of its triangles face inward.
 fn room() -> Folder {
     let corner = |i: usize| format!("v {} {} {}\n", [-1, 1][i & 1], [0, 2][i >> 1 & 1], [-3, 3][i >> 2]);
     let corners: String = (0..8).map(corner).collect();
@@ -27,7 +27,6 @@ fn a_room_is_seen_from_outside_and_says_so_or_from_inside() {
     };
     let (says, rays, hits) = compared("");
     assert!(says && rays == 200 && hits < 200, "{hits}");
-    // Every ray meets a wall.
     assert_eq!(compared("--inside"), (false, 200, 200));
     assert_eq!(compared("--camera '0,1,0 0,1,3 60'"), (false, 200, 200));
     assert_eq!(compared("--camera '0,1,9 0,1,20'"), (false, 200, 0), "it looks away");

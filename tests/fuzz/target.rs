@@ -1,6 +1,6 @@
-//! One case of the fuzzer: a mesh and rays of arbitrary floats, and all properties that must hold for them.
+//! A fuzz case: a mesh and rays of arbitrary floats, with the properties to check.
 //!
-//! `tests/properties.rs` and the fuzz target of this folder share this file. They draw the bytes for `Case::read`.
+//! `tests/properties.rs` and the fuzz target of this folder share this file.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,8 +17,7 @@ use sahara::simd::Level;
 use sahara::validate::adversarial::{near_the_largest_t, rounded_ends};
 use sahara::validate::{Reference, validate};
 
-/// Structures of this crate, with some of their options. Every eight-wide tree occurs with and without packets. Small
-/// leaves give deep trees even on small meshes.
+/// Every eight-wide tree must occur with and without packets.
 pub const VARIANTS: [(&str, &str); 17] = [
     ("brute-force", ""),
     ("median-kd", ""),
@@ -42,10 +41,10 @@ pub const VARIANTS: [(&str, &str); 17] = [
 /// The triangle tests that support `batch=packets`.
 const BATCHED: [&str; 3] = ["moller-trumbore", "watertight", "exact"];
 
-/// Guards the SIMD level, a setting of the whole process: one case at a time changes it.
+/// Guards the SIMD level, which is a setting of the whole process.
 static LEVEL: Mutex<()> = Mutex::new(());
 
-/// The drawn values. Numbers are arbitrary, indices may be out of range.
+/// Numbers are arbitrary, and indices may be out of range.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub positions: Vec<Vec3>,
@@ -54,10 +53,11 @@ pub struct Case {
 }
 
 impl Case {
-    /// Checks all properties. A mesh is rejected with a sentence, or every structure is built over it. Over each
-    /// triangle test, every structure returns the hits of brute force and the lowest number of a tie, even if an
-    /// interval ends at the float to which an exact `t` rounds. All SIMD levels return the same bits. `exact` returns
-    /// the results of the oracle and of rational arithmetic. Nothing panics.
+    /// Checks all properties.
+    ///
+    /// A mesh is rejected with a sentence, or every structure is built over the mesh. Over each triangle test, every
+    /// structure returns the hits of brute force, and the lowest number of a tie. All SIMD levels return the same bits.
+    /// `exact` returns the results of the oracle and of rational arithmetic.
     ///
     /// # Errors
     /// The violated property, with the case.
@@ -91,7 +91,8 @@ impl Case {
             }
         }
 
-        // The oracle shares code with `exact`. Rationals do not, but take a hundred times as long: test every 20th ray.
+        // The oracle shares code with `exact`, but rational arithmetic does not. Rational arithmetic is slow, so test
+        // every 20th ray.
         let exact = Reference::of_test("exact", &mesh).map_err(|e| blame(e.to_string()))?;
         for (i, (ray, hit)) in rays.iter().zip(exact.accel.closest(&rays)).enumerate() {
             let truth = oracle::nearest(ray, &mesh).map(|truth| truth.first());
@@ -112,7 +113,7 @@ impl Case {
     fn with_rounded_ends(&self, mesh: &Mesh) -> Vec<Ray> {
         let nearest = |ray: &Ray| oracle::nearest(ray, mesh).map(|truth| truth.t);
         let mut rays = self.rays.clone();
-        for (ray, t) in self.rays.iter().filter_map(|ray| Some((ray, nearest(ray)?))).take(SEVERAL) {
+        for (ray, t) in self.rays.iter().filter_map(|ray| Some((ray, nearest(ray)?))).take(COPIED_RAYS) {
             let far = near_the_largest_t(&Ray::new(ray.origin, ray.direction), t.approximate());
             rays.extend(rounded_ends(ray, &t));
             rays.extend(nearest(&far).iter().flat_map(|t| rounded_ends(&far, t)));
@@ -120,8 +121,8 @@ impl Case {
         rays
     }
 
-    /// Reads a case from any bytes; missing bytes are 0. A case uses only some of the kinds of floats that `float_of`
-    /// makes. Numbers of similar size are then more likely.
+    /// Reads a case from any bytes. Missing bytes are 0. A case uses only some kinds of floats, so numbers of similar
+    /// size are likely.
     pub fn read(bytes: &[u8]) -> Self {
         let mut bytes = Bytes { left: bytes, kinds: (0..KINDS).collect() };
         let points = 3 + bytes.byte() as usize % 29;
@@ -155,10 +156,10 @@ impl Case {
     }
 }
 
-/// The number of rays with a hit that are copied per case.
-const SEVERAL: usize = 6;
+/// The maximum number of rays that are copied per case.
+const COPIED_RAYS: usize = 6;
 
-/// `rays`, followed by the rays of the two commonest direction octants in groups of sixteen, which form packets.
+/// `rays`, followed by groups of sixteen rays in one direction octant, which form packets.
 fn with_packets(rays: &[Ray]) -> Vec<Ray> {
     let mut octants: BTreeMap<[bool; 3], Vec<Ray>> = BTreeMap::new();
     for ray in rays {
@@ -184,19 +185,18 @@ pub fn left_out() -> Vec<String> {
     ours.filter(|name| VARIANTS.iter().all(|(known, _)| known != name)).map(String::from).collect()
 }
 
-/// Checks that a slice has the same closest hits and any hits on every SIMD level.
 fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> {
     let _alone = LEVEL.lock().unwrap_or_else(PoisonError::into_inner);
     let before = Level::current();
-    let mut said = vec![];
+    let mut results = vec![];
     for level in Level::available() {
         level.choose();
         let bits = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), h.prim.index()));
-        said.push((level, accel.closest(rays).into_iter().map(bits).collect::<Vec<_>>(), accel.any(rays)));
+        results.push((level, accel.closest(rays).into_iter().map(bits).collect::<Vec<_>>(), accel.any(rays)));
     }
     before.choose();
-    let (first, expected, _) = &said[0];
-    for (level, hits, any) in &said {
+    let (first, expected, _) = &results[0];
+    for (level, hits, any) in &results {
         if let Some(i) = (0..rays.len()).find(|&i| hits[i] != expected[i] || any[i] != hits[i].is_some()) {
             let (here, there, any, ray) = (hits[i], expected[i], any[i], rays[i]);
             return Err(format!("ray {i}, \"{ray}\": {here:?} on {level}, any hit {any}; {there:?} on {first}"));
@@ -205,11 +205,9 @@ fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> 
     Ok(())
 }
 
-/// The number of kinds of floats that [`float_of`] makes.
 const KINDS: u8 = 7;
 
-/// A float of the kind `kind` below [`KINDS`]: k/8, a zero, a denormal, a power of two, a number of moderate size,
-/// arbitrary bits, NaN or infinity. `bits` selects the value.
+/// The kinds are k/8, zero, denormal, power of two, moderate size, arbitrary bits, and NaN or infinity.
 fn float_of(kind: u8, bits: u32) -> f32 {
     let signed = |x: f32| if bits >> 31 == 1 { -x } else { x };
     match kind {
@@ -223,7 +221,6 @@ fn float_of(kind: u8, bits: u32) -> f32 {
     }
 }
 
-/// The remaining bytes, and the kinds of floats that are made from them.
 struct Bytes<'a> {
     left: &'a [u8],
     kinds: Vec<u8>,
@@ -247,7 +244,7 @@ impl Bytes<'_> {
         float_of(kind, bits)
     }
 
-    /// A point. Its numbers are finite if `wild` is false.
+    /// The numbers are finite if `wild` is false.
     fn point(&mut self, wild: bool) -> Vec3 {
         Vec3::from_array([0; 3].map(|_: u8| {
             let x = self.float();

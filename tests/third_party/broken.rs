@@ -10,11 +10,10 @@ use sahara::triangle::MollerTrumbore;
 
 use crate::grid::{Grid, GridConfig};
 
-/// The grid and its fault.
 pub struct Broken {
     grid: Grid<MollerTrumbore>,
     fault: Fault,
-    asked: AtomicU32,
+    queries: AtomicU32,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -24,21 +23,15 @@ pub enum Fault {
     None,
     /// Returns a miss for one ray in 10,000.
     Drops,
-    /// Returns the number of the next triangle.
     WrongId,
     /// Computes `t` 3 ulps too far.
     Late,
-    /// Its any hit is wrong for one ray in 500.
     AnyHitDisagrees,
-    /// Panics on one ray in 500.
     Panics,
-    /// Never returns for one ray in 500.
     Hangs,
     /// Loses the hit of every 500th query.
     Moody,
-    /// Panics in its builder.
     BuilderPanics,
-    /// Its builder never returns.
     BuilderHangs,
 }
 
@@ -48,7 +41,7 @@ pub struct BrokenConfig {
     pub fault: Fault,
 }
 
-/// Whether the ray is selected. A hash of origin and direction selects about one ray in `n`.
+/// A hash of origin and direction selects about one ray in `n`.
 pub fn picks(ray: &Ray, n: u32) -> bool {
     let bits = ray.origin.to_array().into_iter().chain(ray.direction.to_array()).map(f32::to_bits);
     let mixed = bits.fold(0x811c_9dc5_u32, |h, b| (h ^ b).wrapping_mul(0x9e37_79b1).rotate_left(13));
@@ -72,7 +65,7 @@ impl Accel for Broken {
             Fault::BuilderHangs if !mesh.is_empty() => forever(),
             _ => {}
         }
-        Ok(Self { grid: Grid::build(mesh, &GridConfig::default())?, fault: config.fault, asked: AtomicU32::new(0) })
+        Ok(Self { grid: Grid::build(mesh, &GridConfig::default())?, fault: config.fault, queries: AtomicU32::new(0) })
     }
 
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
@@ -83,7 +76,7 @@ impl Accel for Broken {
             Fault::Late => hit.map(|hit| Hit { t: hit.t.next_up().next_up().next_up(), ..hit }),
             Fault::Panics if picks(ray, 500) => panic!("an index out of bounds, say"),
             Fault::Hangs if picks(ray, 500) => forever(),
-            Fault::Moody => hit.filter(|_| !self.asked.fetch_add(1, Ordering::Relaxed).is_multiple_of(500)),
+            Fault::Moody => hit.filter(|_| !self.queries.fetch_add(1, Ordering::Relaxed).is_multiple_of(500)),
             _ => hit,
         }
     }
@@ -101,7 +94,7 @@ impl Accel for Broken {
     }
 }
 
-/// A structure that declares few capabilities: no any hit, no intervals, no counts, and a private triangle test.
+/// A structure that declares few capabilities.
 pub struct Modest(Grid<MollerTrumbore>);
 
 impl Accel for Modest {

@@ -16,11 +16,10 @@ pub enum Fault {
     LeafDropped,
     /// The far child is skipped after a hit in the near child.
     ChildOrder,
-    /// The interval is not shortened to the nearest hit so far, and the hit that is found last is returned.
+    /// The interval is not shortened to the nearest hit. The hit that is found last is returned.
     StaleTMax,
-    /// A box is missed if a slab distance is NaN, the product of 0 and infinity.
+    /// A box is missed if a slab distance is 0 times infinity.
     ZeroTimesInfinity,
-    /// The last triangle of a leaf is skipped.
     LastTriangle,
     /// Two hits at one depth cancel each other.
     Ties,
@@ -30,7 +29,6 @@ pub enum Fault {
     Epsilon,
     /// The number of the leaf is returned instead of the number of the triangle.
     WrongId,
-    /// Boxes without thickness are missed.
     DegenerateBox,
     /// The stack is too small, and nodes beyond it are dropped.
     OverflowedStack,
@@ -46,7 +44,7 @@ pub struct FaultyConfig {
     pub fault: Fault,
 }
 
-/// A box around triangles: its least and greatest corner.
+/// Least and greatest corner of a box.
 type Bounds = [Vec3; 2];
 
 enum Node {
@@ -71,7 +69,7 @@ fn bounds(mesh: &Mesh, triangles: &[u32]) -> Bounds {
 }
 
 impl Node {
-    /// Splits triangles at the median. `count` is the number of nodes built so far.
+    /// `count` is the number of nodes built so far.
     fn new(mesh: &Mesh, fault: Fault, mut triangles: Vec<u32>, depth: usize, count: &mut u32) -> Self {
         let place = *count;
         *count += 1;
@@ -90,7 +88,7 @@ impl Node {
 }
 
 impl Faulty {
-    /// The parameter at which the ray enters a box, if it does.
+    /// The `t` at the entry into a box. `None` if the ray misses the box.
     fn enters(&self, ray: &Ray, t_max: f32, [low, high]: Bounds) -> Option<f32> {
         let (mut near, mut far) = (ray.t_min.max(0.0), t_max);
         for axis in 0..3 {

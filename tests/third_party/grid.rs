@@ -1,4 +1,4 @@
-// A uniform grid, deliberately naive: an example of a structure in another crate. It works over every triangle test.
+// A deliberately naive uniform grid, as an example of a structure in another crate.
 use std::sync::Arc;
 
 use sahara::accel::{Accel, BuildError, Footprint, Observer, TreeShape};
@@ -7,7 +7,7 @@ use sahara::glam::{DVec3, Vec3};
 use sahara::serde::{Deserialize, Serialize};
 use sahara::triangle::{Depth, TriangleTest};
 
-/// Cells of equal size, each with the numbers of the triangles whose boxes meet it.
+/// Cells of equal size. Each cell has the numbers of the triangles whose boxes meet the cell.
 pub struct Grid<T: TriangleTest> {
     origin: DVec3,
     cell: DVec3,
@@ -31,7 +31,7 @@ impl Default for GridConfig {
 }
 
 impl<T: TriangleTest> Grid<T> {
-    /// The first and last cell along `axis` that a range of coordinates meets, with slack for the rounding of `f64`.
+    /// The first and last cell along `axis` that a range of coordinates meets. Slack covers the rounding of `f64`.
     fn cells_between(&self, axis: usize, low: f64, high: f64) -> Option<[usize; 2]> {
         let slack = 1e-12 * (low.abs().max(high.abs()) + self.origin[axis].abs() + self.cell[axis]);
         let index = |x: f64| ((x - self.origin[axis]) / self.cell[axis]).floor();
@@ -87,7 +87,7 @@ impl<T: TriangleTest> Grid<T> {
                 for &id in cell {
                     let hit = T::hit(&prepared, &self.triangles[id as usize], t_min, T::last(t_max));
                     let Some(depth) = hit else { continue };
-                    // The nearest hit wins; at equal depth, the lowest number.
+                    // The nearest hit wins. At equal depth, the lowest number wins.
                     if nearest.is_none_or(|(n, i)| T::order(&prepared, &depth, &n).then(id.cmp(&i)).is_lt()) {
                         nearest = Some((depth, id));
                     }

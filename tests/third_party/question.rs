@@ -1,4 +1,4 @@
-// A study of another crate with its own scenes: how often a structure refers to a triangle of a staircase.
+// A study of another crate with its own scenes.
 use sahara::anyhow;
 use sahara::clap::{ArgMatches, Args, Command, FromArgMatches};
 use sahara::glam::Vec3;
@@ -19,7 +19,6 @@ pub fn staircase(parameters: &str) -> anyhow::Result<Scene> {
     Ok(Scene::framed(&format!("staircase {steps}"), Model { positions, triangles, ..Model::default() })?)
 }
 
-/// The study.
 pub const DUPLICATION: Study = Study {
     name: "duplication",
     question: "How often does a structure refer to a triangle?",
@@ -32,7 +31,7 @@ pub const DUPLICATION: Study = Study {
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let structures = Structures::from_arg_matches(matches)?.chosen(registry, &["grid", "sah-kd"])?;
     let workloads = Rays::from_arg_matches(matches)?.request(&[WorkloadKind::Primary]);
-    let settings = Settings::for_guide("sah-kd");
+    let settings = Settings::one_sample("sah-kd");
     let planned = |steps: u32| {
         let word = format!("staircase:{steps}");
         let own = (word.clone(), scene(registry, &word)?);

@@ -1,4 +1,4 @@
-//! Decides by exact arithmetic which of two pictures has the correct value of a pixel.
+//! Decides by exact arithmetic which of two pictures shows a pixel correctly.
 
 use image::DynamicImage;
 
@@ -12,14 +12,12 @@ use crate::render::{ViewKind, error_name};
 use crate::request::BRUTE_FORCE;
 use crate::scene::Scene;
 
-/// Judges the pixels of a scene.
 pub struct Judge<'a> {
     scene: &'a Scene,
     golden: &'a SceneGolden,
-    /// Brute force over the exact triangle test.
     exact: Box<dyn DynAccel>,
     oracle: Oracle,
-    /// The scene as given on the command line.
+    /// The argument that names the scene in a printed command.
     word: &'a str,
 }
 
@@ -29,8 +27,7 @@ impl<'a> Judge<'a> {
         Ok(Self { scene, golden, exact, oracle: Oracle::new(&scene.mesh), word })
     }
 
-    /// Returns a sentence and a command. The sentence states the values of a pixel in both pictures and which picture
-    /// exact arithmetic confirms. The command traces the pixel's primary ray.
+    /// Returns a sentence about a pixel, and a command that traces the pixel's primary ray.
     pub fn blame(
         &self,
         structure: &str,
@@ -66,7 +63,7 @@ impl<'a> Judge<'a> {
         (sentence, format!("sahara validate {} -s {} --ray \"{ray}\"", self.word, quoted(structure)))
     }
 
-    /// The values of `pixel`, a picture of one pixel, as text.
+    /// The picture `pixel` has a size of 1 x 1 pixels.
     fn values(&self, pixel: &DynamicImage) -> String {
         let numbers = self.golden.pixel_values(pixel);
         let is_hit = !numbers.contains(&f64::INFINITY);

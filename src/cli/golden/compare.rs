@@ -18,10 +18,8 @@ use crate::report::number::{count, plural};
 use crate::report::{Cell, Table, Tone};
 use crate::study::Status;
 
-/// The help heading of the options that accept differences.
 const TOLERANCE: &str = "Tolerance";
 
-/// The exit statuses of this command.
 const STATUSES: &str = "Exit status: 0 if all pictures are accepted; 2 if a picture differs; 1 if a picture exists in \
                         only one of the folders or is unreadable.";
 
@@ -54,7 +52,6 @@ pub struct Args {
     outputs: Outputs,
 }
 
-/// A parser of numbers in `range`. Its error is `advice`.
 fn within(range: RangeInclusive<f64>, advice: &'static str) -> impl Fn(&str) -> Result<f64, &'static str> + Clone {
     move |text: &str| text.parse().ok().filter(|number| range.contains(number)).ok_or(advice)
 }
@@ -80,7 +77,6 @@ impl Args {
         }
     }
 
-    /// The pictures to compare. Rejects missing paths, a file with a folder, and folders without pictures.
     fn pairs(&self) -> anyhow::Result<Vec<Pair>> {
         let [expected, actual] = [&self.expected, &self.actual];
         if let Some(missing) = [expected, actual].into_iter().find(|path| !path.exists()) {
@@ -144,7 +140,7 @@ pub fn run(args: &Args, terminal: &Terminal) -> anyhow::Result<Status> {
 
 fn read_mask(path: &Path, terminal: &Terminal) -> anyhow::Result<Mask> {
     let mask = Mask::new(&read(path)?);
-    let [masked, all] = [mask.masked(), mask.size.map(|side| side as usize).iter().product()];
+    let [masked, all] = [mask.masked_pixels(), mask.size.map(|side| side as usize).iter().product()];
     let path = path.escaped();
     anyhow::ensure!(masked < all, "the mask {path} is all black, so nothing would be compared: use another mask");
     let are = if masked == 1 { "is" } else { "are" };
@@ -179,7 +175,6 @@ fn compare(
     Ok(comparison)
 }
 
-/// A table of the pictures that are not identical.
 fn table(comparisons: &[Comparison]) -> Table {
     let rows = comparisons.iter().filter(|own| own.verdict != Verdict::Identical);
     let known = |own: &Comparison, of: fn(&golden::measures::Measures) -> Cell| {

@@ -49,14 +49,12 @@ struct Outputs {
     export_json: Option<PathBuf>,
 }
 
-/// Outputs that are known to be writable.
 struct CheckedOutputs {
     page: Option<OutputFolder>,
     json: Option<OutputFile>,
 }
 
 impl Outputs {
-    /// Rejects outputs that cannot be written or would overwrite `inputs`.
     fn check<'a>(&self, inputs: impl Iterator<Item = &'a Path> + Clone) -> anyhow::Result<CheckedOutputs> {
         anyhow::ensure!(self.page.is_none() || cfg!(feature = "page"), "--page: {}", crate::cli::NO_PAGE);
         let page = self.page.as_deref().map(|path| OutputFolder::check(path)?.apart_from(inputs.clone()));
@@ -66,7 +64,6 @@ impl Outputs {
 }
 
 impl CheckedOutputs {
-    /// Calls `run` and returns its result. `run` receives the page, or `None` without `--page`.
     fn with_page<T>(&self, title: &str, run: impl FnOnce(Option<&Page>) -> io::Result<T>) -> Result<T, OutputError> {
         match &self.page {
             Some(folder) => page::write(folder, title, |page| run(Some(page))),
@@ -74,7 +71,6 @@ impl CheckedOutputs {
         }
     }
 
-    /// Writes the JSON file and prints the path of the page, if the options name them.
     fn export(&self, comparisons: &[Comparison], terminal: &Terminal) -> anyhow::Result<()> {
         if let Some(json) = &self.json {
             let run = json!({ "schema": "sahara-golden-1", "comparisons": comparisons });
@@ -87,7 +83,7 @@ impl CheckedOutputs {
     }
 }
 
-/// Verdicts with their names in tables and in tallies, worst first.
+/// Each verdict with its name in tables and its name in tallies.
 const VERDICTS: [(Verdict, &str, &str); 6] = [
     (Verdict::Differs, "differs", "different"),
     (Verdict::Failed, "failed", "failed"),
@@ -97,7 +93,6 @@ const VERDICTS: [(Verdict, &str, &str); 6] = [
     (Verdict::Identical, "identical", "identical"),
 ];
 
-/// The number of comparisons with each verdict, as text.
 fn tally(comparisons: &[Comparison]) -> String {
     let number = |verdict| comparisons.iter().filter(|own| own.verdict == verdict).count() as u64;
     let parts =

@@ -1,4 +1,4 @@
-//! `golden check` and `golden update`.
+//! The commands `golden check` and `golden update`.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -20,8 +20,7 @@ use crate::request::{self, BRUTE_FORCE, OUTPUT, SAH_TREE, SCENES, STRUCTURES, Vi
 use crate::scene::Scene;
 use crate::study::Status;
 
-/// If triangles times pixels exceed this number, brute force would take minutes, and the default structure is
-/// [`SAH_TREE`]. For built-in golden images, the default is always brute force.
+/// Above this product of triangles and pixels, brute force takes minutes.
 const WORK: u64 = 1 << 32;
 
 #[derive(Debug, clap::Args)]
@@ -68,13 +67,12 @@ fn view(name: &str) -> Result<ViewKind, String> {
     find("view of golden images", VIEWS, name, ViewKind::name).map_err(|unknown| unknown.to_string())
 }
 
-/// A scene and its golden image.
 struct Target {
     scene: Scene,
     golden: SceneGolden,
-    /// The argument that names the scene on a command line.
+    /// The argument that names the scene in a printed command.
     word: String,
-    /// The default structure of `update`. If it is not brute force, `check` skips brute force by default.
+    /// The default structure of `update`.
     default: &'static str,
 }
 
@@ -88,7 +86,6 @@ impl Target {
 
 impl Targets {
     fn words(&self) -> Vec<OsString> {
-        // A repeated name counts once.
         each_once_by(request::words(&self.scenes), |one, other| one.eq_ignore_ascii_case(other))
     }
 
@@ -104,7 +101,7 @@ impl Targets {
             let golden = SceneGolden::file(&folder, &name, self.view, &scene);
             return Ok(Target::new(scene, golden, word));
         };
-        // Always use stand-ins: a real mesh on this machine must not change the picture.
+        // Always use generated meshes. A real mesh on this machine must not change the picture.
         let mut scene = builtin.scene(None)?;
         scene.size = SIZE;
         let scene = self.from.seen(scene)?;
@@ -130,7 +127,7 @@ impl Targets {
 pub fn check(registry: &Registry, args: &CheckArgs, terminal: &Terminal) -> anyhow::Result<Status> {
     let inputs = request::scene_files(registry, &args.targets.scenes);
     let outputs = args.outputs.check(inputs.iter().map(PathBuf::as_path))?;
-    // A golden image belongs to the scene: all structures with the same triangle test must render the same picture.
+    // All structures with the same triangle test must render the same picture.
     let choices: Vec<Choice> = if args.structure.is_empty() {
         registry.all().into_iter().filter(|choice| choice.triangle_test() == TRIANGLE_TEST).collect()
     } else {

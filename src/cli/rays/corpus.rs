@@ -1,4 +1,4 @@
-//! `rays corpus`: writes meshes, rays and exact hits, with which other programs can count their wrong hits.
+//! `rays corpus`: writes meshes, rays and exact hits for tests of other programs.
 
 #[cfg(test)]
 mod tests;
@@ -69,11 +69,11 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
 
     let waiting = spinner("loading scenes", terminal);
-    // Use stand-ins: generated meshes are the same on every machine.
+    // Replace built-in meshes with stand-ins, which are the same on every machine.
     let own = |name: &OsString| if Builtin::find(name).is_ok() { stand_in(name) } else { name.clone() };
     let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<OsString>>())?;
 
-    // One scene at a time: an oracle takes much more memory than its scene and files.
+    // Process one scene at a time, because an oracle needs much memory.
     let (mut files, mut rows, mut stand_ins) = (Files::new(), vec![], vec![]);
     for scene in scenes {
         let (own, [rays, hits]) = part(&scene, args, &waiting)?;
@@ -90,7 +90,6 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     }
 
     waiting.set_message(format!("writing {}", folder.path.escaped()));
-    // One line per file, in the format of `sha256sum`.
     let sums: String = files.iter().map(|(name, bytes)| format!("{}  {name}\n", digest(bytes))).collect();
     let digest_of_sums = digest(sums.as_bytes());
     files.insert(SUMS.into(), sums.into_bytes());
@@ -105,7 +104,6 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     Ok(verdict(args, &digest_of_sums, terminal))
 }
 
-/// Prints the hash and, with default options, whether it is the published hash.
 fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> Status {
     let is_published = digest == CORPUS_SHA256;
     let is_wrong = args.is_default() && !is_published;
@@ -120,7 +118,7 @@ fn verdict(args: &Args, digest: &str, terminal: &Terminal) -> Status {
     if is_wrong { Status::Wrong } else { Status::Right }
 }
 
-/// The files of a scene, and their numbers of rays and hits.
+/// Returns the files of a scene, the number of rays and the number of hits.
 fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Files, [usize; 2])> {
     let stem = slug(&scene.name);
     let (mut files, mut counts) = (Files::new(), [0, 0]);
@@ -141,7 +139,7 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Fi
     Ok((files, counts))
 }
 
-/// The rays of a workload and their exact hits. The ray file has no scene hash, which would not match the mesh file.
+/// The ray file stores no scene hash, because the mesh file omits materials and lights.
 fn rays_with_exact_hits(
     scene: &Scene,
     kind: RayKind,
@@ -152,10 +150,10 @@ fn rays_with_exact_hits(
     let workload = Workload { name: kind.name().into(), query: Query::Closest, rays: kind.rays(scene, count, seed) };
     RayFile::check(&workload.rays)?;
     RayFile::check_names(&scene.name, &workload.name)?;
-    // `t` of the nearest hit, with a relative error below 2^-50, and all triangles that are hit at this `t`.
+    // Returns the nearest `t` and all triangles that are hit at this `t`. The relative error of `t` is below 2^-50.
     let exact_answer = |ray: &Ray| {
         let ids = oracle.nearest(ray)?.ids;
-        // Compute `t` with the triangle of the lowest number, because the last bits depend on the triangle.
+        // Always use the triangle with the smallest id, because the rounding of `t` depends on the triangle.
         let t = exact::hit(ray, scene.mesh.corners(ids[0])).expect("the oracle has found it");
         Some((t.approximate(), ids))
     };

@@ -92,12 +92,12 @@ fn record(registry: &Registry, args: &Record, terminal: &Terminal) -> anyhow::Re
     let output = request::output(registry, &args.output, std::slice::from_ref(&args.scene), None)?;
     let waiting = spinner(format!("loading {}", args.scene.escaped()), terminal);
     let scene = request::scene(registry, &args.scene)?;
-    let guide = request::guide(registry)?;
-    waiting.set_message(format!("{}: building {}", scene.name, guide.label));
-    let guide = guide.build(&scene.mesh)?;
+    let tracer = request::secondary_ray_structure(registry)?;
+    waiting.set_message(format!("{}: building {}", scene.name, tracer.label));
+    let tracer = tracer.build(&scene.mesh)?;
     waiting.set_message(format!("{}: generating {} rays", scene.name, args.workload.name()));
     let sampling = Sampling::some(&scene, args.rays, args.seed);
-    let workload = Workload::new(&scene, args.workload, &sampling, guide.as_ref());
+    let workload = Workload::new(&scene, args.workload, &sampling, tracer.as_ref());
     drop(waiting);
     let (name, kind) = (&scene.name, &workload.name);
     anyhow::ensure!(!workload.rays.is_empty(), "{name} has no {kind} rays to record: name another workload");

@@ -1,4 +1,4 @@
-//! Hits in files: writes a structure's hits for other programs, and compares other programs' hits with the reference.
+//! Exports a structure's hits to a file, and checks the hits of a file.
 
 use std::path::Path;
 use std::sync::Arc;

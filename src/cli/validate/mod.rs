@@ -101,7 +101,7 @@ pub struct Args {
     seed: Option<u64>,
 }
 
-/// A run of the command without `--hard`.
+/// A run of `validate` without `--hard`.
 struct Run<'a> {
     registry: &'a Registry,
     args: &'a Args,
@@ -172,7 +172,7 @@ impl Args {
         self.rays.clone().unwrap_or(RaySource::Count(DEFAULT_RAYS))
     }
 
-    /// The structures to check. With `--runner` and without `--structure`, these are only the runners.
+    /// `--runner` without `--structure` checks only the runners.
     fn structures(&self, registry: &Registry) -> anyhow::Result<Vec<Choice>> {
         let mut structures = vec![];
         if self.runner.is_empty() || !self.structure.is_empty() {
@@ -182,7 +182,7 @@ impl Args {
         Ok(structures)
     }
 
-    /// The time limit of a query. For a runner there is none, because each of its replies has a time limit.
+    /// Runners have no query limit, because `--runner-limit` limits each reply.
     fn query_limit(&self, accel: &dyn DynAccel) -> Duration {
         if accel.remote().is_some() { Duration::MAX } else { self.limit.duration() }
     }
@@ -190,12 +190,11 @@ impl Args {
     fn build(&self, choice: &Choice, scene: &Scene, waiting: &ProgressBar) -> Result<Arc<dyn DynAccel>, BuildFailure> {
         waiting.set_message(format!("{}: building {}", scene.name, choice.label));
         if choice.command().is_some() {
-            // A build needs no limit here, because each reply of a runner has a time limit.
             return Ok(Arc::from(choice.build(&scene.mesh)?));
         }
         let (own, mesh) = (choice.clone(), Arc::clone(&scene.mesh));
         let limit = self.limit.duration() * u32::try_from(1 + mesh.len() / 1_000_000).unwrap_or(u32::MAX);
-        // The registry turns a panic of the builder into an error. If `watched` fails, the build therefore hangs.
+        // `own.build` catches panics of the builder. `watched` therefore fails only if the build hangs.
         let built = watched(limit, move || own.build(&mesh)).map_err(|_| BuildFailure::Hangs(limit.as_secs_f64()))?;
         Ok(Arc::from(built?))
     }

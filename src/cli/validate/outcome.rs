@@ -12,7 +12,6 @@ use crate::request::known_defect;
 use crate::study::{Status, Verdict};
 use crate::validate::{Kind, Validation};
 
-/// The reason why a structure could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildFailure {
     #[error("it hangs: its build did not finish within {0} s (see --limit)")]
@@ -26,9 +25,9 @@ pub struct Outcome {
     pub scene: String,
     pub label: String,
     pub triangle_test: String,
-    /// Whether the hits come from the user: from a structure of another crate, a runner or a file.
+    /// `false` only for the structures of `Registry::builtin`.
     pub is_external: bool,
-    /// Whether the structure has a known defect. Its wrong hits do not change the exit status.
+    /// Wrong hits of a structure with a known defect do not change the exit status.
     pub has_known_defect: bool,
     pub found: Result<Validation, BuildFailure>,
 }
@@ -45,7 +44,6 @@ impl Outcome {
         }
     }
 
-    /// The exit status; with `strict`, rounding of the triangle test counts as wrong.
     pub fn status(&self, strict: bool) -> Status {
         match &self.found {
             Err(BuildFailure::Hangs(_)) => Status::Wrong,
@@ -58,7 +56,6 @@ impl Outcome {
         }
     }
 
-    /// Whether a ray with a difference from the reference is printed.
     pub fn has_example(&self) -> bool {
         !self.has_known_defect && self.found.as_ref().is_ok_and(|found| !found.worst.is_empty())
     }
@@ -71,7 +68,6 @@ impl Outcome {
         }
     }
 
-    /// The outcome as JSON.
     pub fn record(&self) -> Value {
         let mut record = json!({
             "scene": self.scene,
@@ -114,12 +110,11 @@ pub struct StructureVerdict {
     pub label: String,
     pub is_external: bool,
     pub verdict: Verdict,
-    /// The first scene or case in which the structure was not checked, and the reason.
+    /// The first scene or hard case in which the structure was not checked, and the reason.
     pub unchecked: Option<(String, String)>,
 }
 
 impl StructureVerdict {
-    /// The verdict as a sentence. If the structure was not checked in a scene, a second sentence names the scene.
     pub fn sentence(&self) -> String {
         let Self { label, verdict, .. } = self;
         match &self.unchecked {
@@ -130,7 +125,6 @@ impl StructureVerdict {
     }
 }
 
-/// One verdict per structure, over all scenes.
 pub fn verdicts(outcomes: &[Outcome]) -> Vec<StructureVerdict> {
     let mut all: Vec<StructureVerdict> = vec![];
     for outcome in outcomes {
@@ -150,8 +144,7 @@ pub fn verdicts(outcomes: &[Outcome]) -> Vec<StructureVerdict> {
     all
 }
 
-/// Prints a sentence about each structure that the user provides, and writes the run as JSON, which `study/SCHEMA.md`
-/// describes. `results` are ordered by scene or case, then by structure.
+/// Prints the verdicts on external structures. Writes the run to `json` in the format of `src/study/SCHEMA.md`.
 pub fn finish(
     verdicts: &[StructureVerdict],
     results: &[Value],
@@ -163,9 +156,8 @@ pub fn finish(
     let verdict =
         |own: &StructureVerdict| json!({ "label": own.label, "verdict": own.verdict, "sentence": own.sentence() });
     let run = json!({
-        // Version 3 has verdicts, and is the same for every mode of `validate`.
         "schema": 3,
-        // Every structure traces on one thread.
+        // Each structure traces its rays on one thread.
         "provenance": Provenance::capture(1),
         "verdicts": verdicts.iter().map(verdict).collect::<Vec<_>>(),
         "results": results,

@@ -1,4 +1,4 @@
-//! The reference of `validate`: how it is chosen, how many rays it can trace, and its hits.
+//! The reference of the command `validate`.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,22 +16,21 @@ use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::Reference;
 
-/// Default number of rays per scene.
 pub const DEFAULT_RAYS: usize = 10_000;
-/// Maximum number of triangle tests of brute force by default. It lowers the default number of rays for large meshes.
+/// Maximum number of triangle tests of brute force without `--rays`.
 const TESTS: usize = 1 << 33;
 
-/// Binary logarithm of the maximum number of triangle tests for the rays of a file. They take about two minutes.
+/// Binary logarithm of the maximum number of triangle tests for a ray file. Brute force runs 2^36 tests in about two
+/// minutes.
 const FILE_TESTS: u32 = 36;
 
-/// Rays times triangles between two messages about progress: about a second of brute force.
+/// Triangle tests between two progress messages. Brute force runs these tests in about a second.
 const PROGRESS_TESTS: usize = 1 << 29;
 
-/// The structure of `--against`. `None` is brute force with the triangle test of each checked structure.
+/// The structure in `--against`. `None` is brute force with the triangle test of the checked structure.
 pub struct ReferenceChoice(Option<Choice>);
 
 impl ReferenceChoice {
-    /// The structure of `--against`. `brute-force` without options uses the triangle test of each structure.
     pub fn named(registry: &Registry, name: &str) -> anyhow::Result<Self> {
         let is_shared = name.eq_ignore_ascii_case(BRUTE_FORCE);
         Ok(Self(if is_shared { None } else { Some(registry.choose(name)?) }))
@@ -43,7 +42,6 @@ impl ReferenceChoice {
         Ok(Reference::structure(choice.build(&scene.mesh).with_context(failure)?, test))
     }
 
-    /// The name of `reference` in messages about a hit file whose hits were computed with the triangle test `test`.
     pub fn name_for_file(&self, reference: &Reference, test: &str) -> String {
         match self.0 {
             Some(_) => self.to_string(),
@@ -52,12 +50,11 @@ impl ReferenceChoice {
         }
     }
 
-    /// The default number of traced rays of a scene with this number of triangles.
     pub fn affordable(&self, triangles: usize) -> usize {
         self.most(triangles, TESTS).min(DEFAULT_RAYS)
     }
 
-    /// The entries of a ray file to trace: all entries, or an evenly spread sample with a note about it.
+    /// The entries of a ray file that are traced. The note is `None` if all entries are traced.
     pub fn sample<T: Copy>(&self, recorded: &[T], triangles: usize) -> (Vec<T>, Option<String>) {
         let sample = spread(recorded, self.most(triangles, 1 << FILE_TESTS));
         let note = (sample.len() < recorded.len()).then(|| {
@@ -70,8 +67,6 @@ impl ReferenceChoice {
         (sample, note)
     }
 
-    /// The number of rays that brute force can trace with at most `tests` triangle tests, but at least one. Other
-    /// references have no limit.
     fn most(&self, triangles: usize, tests: usize) -> usize {
         let is_brute_force = self.0.as_ref().is_none_or(|choice| choice.entry.name == BRUTE_FORCE);
         if is_brute_force { (tests / triangles.max(1)).max(1) } else { usize::MAX }
@@ -89,18 +84,17 @@ impl fmt::Display for ReferenceChoice {
 
 pub type ReferenceHits = (Arc<Reference>, Vec<Option<Hit>>);
 
-/// The references of one scene, each built and traced once.
+/// The references of one scene. Each reference is built and traced once.
 pub struct References<'a> {
     pub scene: &'a Scene,
     pub rays: &'a [Ray],
     pub choice: &'a ReferenceChoice,
-    /// The references by triangle test. For a structure of `--against`, all tests except `exact` have the key `None`.
     pub known: BTreeMap<Option<&'static str>, ReferenceHits>,
 }
 
 impl References<'_> {
     pub fn get(&mut self, test: &'static str, waiting: &ProgressBar) -> anyhow::Result<&ReferenceHits> {
-        // One structure of `--against` serves all tests that round. `exact` does not round and has its own reference.
+        // With a structure in `--against`, all triangle tests except `exact` share one reference.
         let key = (self.choice.0.is_none() || test == Exact::NAME).then_some(test);
         if !self.known.contains_key(&key) {
             let reference = self.choice.build(self.scene, test)?;
@@ -113,7 +107,6 @@ impl References<'_> {
     }
 }
 
-/// The hits of a reference for rays of a scene. Messages about progress call the reference `name`.
 pub fn closest_hits(
     reference: &Reference,
     scene: &Scene,
@@ -159,7 +152,6 @@ mod tests {
         assert_eq!(tree.sample(&recorded, 10_000_000), (recorded, None));
     }
 
-    /// A reference accepts differences by rounding of the triangle test, except for `exact`, which does not round.
     #[test]
     fn one_structure_for_all_tests_that_round_is_built_and_traced_once() {
         let scene = Builtin::find("cube").unwrap().scene(None).unwrap();

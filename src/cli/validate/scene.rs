@@ -1,4 +1,4 @@
-//! Compares structures over one scene with the reference.
+//! Compares structures with the reference in one scene.
 
 use std::collections::BTreeMap;
 
@@ -10,12 +10,12 @@ use crate::cli::progress::spinner;
 use crate::geometry::Ray;
 use crate::registry::Choice;
 use crate::report::number::plural;
-use crate::request::{self, RaySource, Structures, known_defect, left_out};
+use crate::request::{self, RaySource, Structures, brute_force_note, known_defect};
 use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 use crate::validate::{ExpectedHits, Stratum, validate_remote, validate_watched};
 
 impl Run<'_> {
-    /// Compares all structures with the reference and prints the table. `recorded` has the rays of a ray file.
+    /// `recorded` contains the rays of a ray file.
     pub fn validate(&self, scene: &Scene, recorded: Option<&[Ray]>) -> anyhow::Result<Vec<Outcome>> {
         let Self { args, terminal, .. } = self;
         let triangles = scene.mesh.len();
@@ -26,7 +26,7 @@ impl Run<'_> {
         let (mut outcomes, mut of_structures) = (vec![], vec![]);
         for choice in &self.structures {
             if args.runner.is_empty() && named.leaves_out(&choice.entry.name, triangles) {
-                notes.push(left_out(scene));
+                notes.push(brute_force_note(scene));
                 continue;
             }
             let waiting = spinner(String::new(), terminal);
@@ -62,7 +62,6 @@ impl Run<'_> {
         Ok(outcomes)
     }
 
-    /// The recorded rays or the rays of `--ray`. Otherwise generated rays, divided among the workloads or strata.
     fn rays(&self, scene: &Scene, recorded: Option<&[Ray]>, notes: &mut Vec<String>) -> anyhow::Result<Vec<Ray>> {
         let Self { registry, args, reference, terminal, .. } = self;
         if let Some(recorded) = recorded {
@@ -87,7 +86,7 @@ impl Run<'_> {
             let of_stratum = |stratum: Stratum| stratum.rays(&scene.mesh, each, seed);
             return Ok(Stratum::ALL.into_iter().flat_map(of_stratum).collect());
         }
-        let tracer = request::guide(registry)?.build(&scene.mesh)?;
+        let tracer = request::secondary_ray_structure(registry)?.build(&scene.mesh)?;
         let limit = number.count().div_ceil(WorkloadKind::ALL.len());
         let sampling = Sampling::some(scene, limit, seed);
         let of_kind = |&kind| Workload::new(scene, kind, &sampling, tracer.as_ref()).rays;
@@ -95,7 +94,6 @@ impl Run<'_> {
     }
 }
 
-/// The reason why a structure gave no result, or else its worst ray. Omits the ray if the structure has a known defect.
 fn fault(choice: &Choice, outcome: &Outcome) -> Option<String> {
     let fault = match &outcome.found {
         Ok(_) if outcome.has_known_defect => None,
@@ -105,7 +103,6 @@ fn fault(choice: &Choice, outcome: &Outcome) -> Option<String> {
     fault.map(|fault| format!("{}: {fault}", choice.label))
 }
 
-/// The notes that explain the row of an outcome.
 fn notes_on(choice: &Choice, outcome: &Outcome) -> Vec<String> {
     let Ok(found) = &outcome.found else { return vec![] };
     let label = &choice.label;

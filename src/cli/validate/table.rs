@@ -1,4 +1,4 @@
-//! The tables of a scene: a row per structure, and the hits of each structure on given rays.
+//! The tables of the command `validate` for one scene.
 
 use std::fmt;
 use std::sync::Arc;
@@ -29,7 +29,6 @@ pub fn scene_table(
     table.with_details(COLUMNS.iter().skip(5).map(|(name, _)| *name)).noted(notes)
 }
 
-/// The heading of a column, and its cell for an outcome.
 type OutcomeColumn = (&'static str, fn(&Outcome) -> Cell);
 
 const COLUMNS: [OutcomeColumn; 10] = [
@@ -63,7 +62,6 @@ fn errors(own: &Outcome, of: fn(&Validation) -> u64) -> Cell {
     number(own, of).with(if is_wrong { Tone::Wrong } else { Tone::Plain })
 }
 
-/// A note if exact arithmetic proves hits of the reference wrong.
 pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
     let rays = plural(found.reference_errors as usize, "ray");
     (found.reference_errors > 0).then(|| format!("On {rays} the reference is wrong, not {name}."))
@@ -72,7 +70,6 @@ pub fn note_on_reference(name: &str, found: &Validation) -> Option<String> {
 pub const RETRACE: &str = "Trace a ray again, with its interval if it has one: sahara validate SCENE --structure NAME --ray \"ox,oy,oz dx,dy,dz [t_min,t_max]\" \
      (a program: --runner COMMAND instead of --structure NAME)";
 
-/// The meaning of the columns.
 pub const LEGEND: [&str; 3] = [
     "hits: rays with a hit in the reference. wrong: hits that no rounding of the triangle test explains, contradictions, panics \
      and queries that never return; a correct structure has none. rounded: hits that differ from the reference because the \
@@ -85,7 +82,6 @@ pub const LEGEND: [&str; 3] = [
      errors.",
 ];
 
-/// One row per ray: structure, number of the ray, t, triangle, and barycentric weights.
 pub fn answers(label: &str, accel: &Arc<dyn DynAccel>, rays: &[Ray], mesh: &Mesh, limit: Duration) -> Vec<Vec<Cell>> {
     let row = |(i, ray): (usize, &Ray)| {
         let mut row: Vec<Cell> = vec![label.into(), format!("{} ({ray})", i + 1).into()];

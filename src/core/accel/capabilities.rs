@@ -2,41 +2,37 @@
 
 use crate::geometry::{Hit, Ray};
 
-/// The features that a structure supports. The structure receives no rays that need an unsupported feature. Tables
-/// list such rays as declined; they are neither right nor wrong.
-///
-/// A structure declares the counts that it reports in [`Accel::OBSERVED`](super::Accel::OBSERVED), and the name of its
-/// triangle test in [`Accel::TRIANGLE_TEST`](super::Accel::TRIANGLE_TEST).
+/// The features that a structure supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Whether it has a separate any-hit query. If not, the suite neither checks nor times its any-hit results.
+    /// Whether the structure has a separate any-hit query. Without this query, any-hit results are not checked.
     pub any_hit: bool,
-    /// Whether it ignores hits before a `t_min` above 0.
+    /// Whether the structure ignores hits below a positive `t_min`.
     pub t_min: bool,
-    /// Whether it finds hits at `t_min`. If not, the suite counts rays whose nearest hit lies at `t_min` as declined.
+    /// Whether the structure finds hits at `t_min`.
     pub closed_start: bool,
-    /// Whether it ignores hits at or beyond a finite `t_max`.
+    /// Whether the structure ignores hits at or beyond a finite `t_max`.
     pub t_max: bool,
 }
 
 impl Capabilities {
-    /// All features of the contract of [`Accel`](super::Accel).
+    /// All features.
     pub const ALL: Self = Self { any_hit: true, t_min: true, closed_start: true, t_max: true };
 
-    /// Whether any result for `ray` is accepted: its nearest hit is at `t_min`, and the structure excludes such hits.
+    /// Whether `ray` counts as declined because the `nearest` hit lies at `t_min`.
     pub fn excuses(self, ray: &Ray, nearest: Option<Hit>) -> bool {
         !self.closed_start && nearest.is_some_and(|hit| hit.t == ray.interval().0)
     }
 
-    /// The feature of `ray` that the structure declines, if any.
+    /// The name of an unsupported bound of `ray`. `None` if `ray` has no unsupported bound.
     pub fn declines(self, ray: &Ray) -> Option<&'static str> {
-        // A NaN `t_max` needs the feature: the ray hits nothing, but a structure that ignores `t_max` may return a hit.
+        // A NaN `t_max` counts as a bound.
         let (from_start, endless) = (ray.t_min <= 0.0, ray.t_max == f32::INFINITY);
         let t_max = (!self.t_max && !endless).then_some("t_max");
         if self.t_min || from_start { t_max } else { Some("t_min") }
     }
 
-    /// The names of the declined features, as `sahara list` prints them.
+    /// The names of the unsupported features.
     pub fn declined(self) -> Vec<&'static str> {
         let all = [
             (self.any_hit, "any hit"),

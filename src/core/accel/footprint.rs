@@ -5,11 +5,11 @@
 pub struct Footprint {
     /// Inner nodes and leaf headers.
     pub nodes: usize,
-    /// Triangle indices that leaves store, or the permutation of triangle indices that leaves refer to.
+    /// Triangle indices of the leaves.
     pub references: usize,
-    /// Triangle data copied for the triangle test.
+    /// Copies of triangle data for the triangle test.
     pub triangles: usize,
-    /// Everything else.
+    /// All other data.
     pub other: usize,
 }
 

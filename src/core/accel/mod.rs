@@ -1,4 +1,4 @@
-//! The interface of acceleration structures, and the data that they report: hits, counts, footprint, tree shape.
+//! The interface of acceleration structures, and the data that structures report.
 
 mod capabilities;
 mod footprint;

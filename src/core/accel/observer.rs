@@ -1,13 +1,13 @@
-//! Observers of a traversal. The observer `()` costs nothing.
+//! Observers of a traversal.
 
-/// Receives the events of a traversal. Every method does nothing by default, so `()` compiles to nothing.
+/// Receives the events of a traversal. The observer `()` compiles to nothing.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an observer of a traversal",
     label = "does not implement `Observer`",
     note = "pass `&mut ()` to observe nothing, or `&mut Counts::default()` to count steps and tests"
 )]
 pub trait Observer {
-    /// Whether the observer uses the events. If not, a structure may take a faster path that reports no events.
+    /// Whether the observer uses the events. If `false`, a structure may report no events.
     const ACTIVE: bool = true;
 
     /// The traversal enters an inner node.
@@ -18,7 +18,7 @@ pub trait Observer {
     #[inline(always)]
     fn leaf(&mut self, _references: u32) {}
 
-    /// The traversal tests `n` triangles at once: a block, or a single triangle.
+    /// The traversal tests `n` triangles at once.
     #[inline(always)]
     fn test(&mut self, _n: u32) {}
 }
@@ -30,9 +30,9 @@ impl Observer for () {
 /// The events that a structure reports. Unreported counts are unknown, not zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Observed {
-    /// Inner nodes and leaves.
+    /// Whether the structure reports inner nodes and leaves.
     pub steps: bool,
-    /// Triangle tests.
+    /// Whether the structure reports triangle tests.
     pub tests: bool,
 }
 
@@ -45,23 +45,23 @@ impl Observed {
     pub const NONE: Self = Self { steps: false, tests: false };
 }
 
-/// Sums over the observed rays, the same on every machine (counts as proposed by Havran, Purgathofer 2003).
+/// Counts of traversal events, summed over the observed rays (Havran, Purgathofer 2003).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Inner nodes entered.
     pub inner: u64,
-    /// Leaves entered, including empty ones.
+    /// Leaves entered, including empty leaves.
     pub leaves: u64,
     /// Empty leaves entered.
     pub empty_leaves: u64,
     /// Triangles tested.
     pub tests: u64,
-    /// Blocks of triangles tested at once; equal to `tests` if triangles are tested one by one.
+    /// Blocks tested. The triangles of a block are tested at once.
     pub blocks: u64,
 }
 
 impl Counts {
-    /// Traversal steps: all nodes entered.
+    /// All nodes entered.
     pub fn steps(&self) -> u64 {
         self.inner + self.leaves
     }

@@ -1,8 +1,8 @@
-//! The two queries.
+//! The queries of rays: closest hit and any hit.
 
 use serde::{Deserialize, Serialize};
 
-/// The query of a batch.
+/// The query for each ray of a batch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Query {

@@ -2,46 +2,46 @@
 
 use crate::geometry::Aabb;
 
-/// Counts of a finished tree. A structure without a tree is one leaf.
+/// Counts of a finished tree. A structure without a tree counts as one leaf.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TreeShape {
     /// Nodes with children.
     pub inner: usize,
-    /// Leaves, including empty ones.
+    /// Leaves, including empty leaves.
     pub leaves: usize,
     /// Empty leaves.
     pub empty: usize,
-    /// (leaf, primitive) pairs; at least the number of primitives that are not degenerate.
+    /// Pairs of a leaf and a triangle in the leaf.
     pub references: usize,
     /// Edges from the root to the deepest leaf.
     pub depth: usize,
     /// References in the largest leaf.
     pub largest_leaf: usize,
-    /// Expected cost of a random line through the root box, in triangle tests (MacDonald, Booth 1990), with the same
-    /// constants for every structure: [`TreeShape::INNER_COST`], and 1 per triangle of a leaf. `None` if the tree is
-    /// unknown, or if the area of its root box is zero or not finite.
+    /// Expected cost of a random line through the root box, in triangle tests (MacDonald, Booth 1990). An inner node
+    /// costs [`TreeShape::INNER_COST`]. A triangle of a leaf costs 1. `None` if the tree is unknown. `None` if the area
+    /// of the root box is zero or not finite.
     pub sah_cost: Option<f64>,
 }
 
 /// A node of a tree.
 pub enum Part<N> {
-    /// A leaf, with its number of references.
+    /// A leaf with the given count of references.
     Leaf(usize),
-    /// An inner node, with the children and their bounds.
+    /// An inner node with the given children. Each child has a bounding box.
     Inner(Vec<(N, Aabb)>),
 }
 
 impl TreeShape {
-    /// Cost of an inner node in triangle tests (Aila, Karras, Laine 2013).
+    /// Cost of an inner node, relative to one triangle test (Aila, Karras, Laine 2013).
     pub const INNER_COST: f64 = 1.2;
 
-    /// The shape of a structure whose tree is unknown or missing: one leaf of unknown cost.
+    /// The shape of a single leaf with an unknown cost.
     pub fn one_leaf(references: usize) -> Self {
         let empty = usize::from(references == 0);
         Self { leaves: 1, empty, references, largest_leaf: references, ..Self::default() }
     }
 
-    /// Counts the nodes of a tree, depth first. Without a root, all counts are 0. `open` returns the content of a node.
+    /// Counts the nodes of a tree. `open` converts a node to a [`Part`]. If `root` is `None`, all counts are 0.
     pub fn of<N>(root: Option<(N, Aabb)>, mut open: impl FnMut(N, &Aabb) -> Part<N>) -> Self {
         let root_area = root.as_ref().map_or(0.0, |(_, bounds)| bounds.half_area());
         let mut shape = Self::default();
@@ -91,9 +91,8 @@ mod tests {
         });
         assert_eq!((shape.inner, shape.leaves, shape.empty, shape.references), (2, 3, 1, 5));
         assert_eq!((shape.depth, shape.largest_leaf), (2, 3));
-        // Half areas 3, 2 and 1.5: (1.2 * 3 + 1.2 * 2 + 2 * 1.5 + 3 * 2) / 3.
+        // The half areas are 3, 2 and 1.5. The cost is (1.2 * 3 + 1.2 * 2 + 2 * 1.5 + 3 * 2) / 3.
         assert!((shape.sah_cost.unwrap() - 5.0).abs() < 1e-12, "{shape:?}");
-        // No tree, and a single leaf.
         assert_eq!(TreeShape::of(None::<((), Aabb)>, |_, _| Part::Leaf(0)), TreeShape::default());
         assert_eq!(TreeShape::of(Some(((), unit)), |(), _| Part::Leaf(1)).sah_cost, Some(1.0));
     }

@@ -14,61 +14,60 @@ use crate::geometry::{Hit, Mesh, Ray};
 /// The reason why a build failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
-    /// A configuration value is out of range or has no effect. The message names the option and the allowed values.
+    /// A configuration value is out of range or has no effect.
     #[error("{0}")]
     Config(String),
-    /// The mesh exceeds a limit of the structure. The message states the reason.
+    /// The structure cannot be built over this mesh.
     #[error("{0}")]
     Mesh(String),
-    /// The system lacks a requirement of the structure. The message states how to install it.
+    /// The system lacks a requirement of the structure.
     #[error("{0}")]
     Unavailable(String),
-    /// The external program of the structure failed. The message is a clause that states how.
+    /// The external program of the structure failed.
     #[error("{0}")]
     Remote(String),
-    /// The rays need a feature that the structure declines.
+    /// The rays need a feature that the structure does not support.
     #[error("declined: these rays need {0}, which the structure does not support")]
     Declined(&'static str),
-    /// The structure's own code panicked.
+    /// The code of the structure panicked.
     #[error("its builder panicked on this mesh: omit the structure, or check for extreme coordinates")]
     Panic,
 }
 
 /// An acceleration structure with two queries: closest hit and any hit.
 ///
-/// The conformance suite tests this contract:
+/// A structure follows this contract:
 ///
-/// 1. `closest_hit` returns the smallest `t` in [`t_min`, `t_max`) by the structure's triangle test, over all triangles
-///    of the mesh that are not degenerate. A hit whose `t` rounds to infinity does not count, even if `t_max` is
-///    infinite. The returned `t` may equal `t_max`, because an exact `t` below `t_max` may round up to it.
-/// 2. If several primitives are hit at the smallest `t`, `closest_hit` may return any of them (the structures of this
-///    crate return the one with the lowest index).
+/// 1. `closest_hit` returns the hit with the smallest `t` in [max(`t_min`, 0), `t_max`). Degenerate triangles have no
+///    hits. The structure's triangle test defines `t`. A hit whose `t` rounds to infinity does not count. The returned
+///    `t` may equal `t_max` after rounding.
+/// 2. If several triangles are hit at the smallest `t`, `closest_hit` may return any of these triangles. The structures
+///    of this crate, except the module `external`, return the triangle with the lowest index.
 /// 3. `any_hit(ray) == closest_hit(ray).is_some()`.
 /// 4. Results depend only on the mesh, the configuration and the ray.
-/// 5. Every [`Mesh`] builds, including the empty mesh.
+/// 5. `build` accepts the empty mesh.
 ///
-/// A ray hits nothing if [`Ray::is_valid`] is false. A structure declares the features that it supports in
-/// [`CAPABILITIES`](Accel::CAPABILITIES) and the events that it reports in [`OBSERVED`](Accel::OBSERVED).
+/// An invalid ray hits nothing ([`Ray::is_valid`]).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an acceleration structure",
     label = "does not implement `Accel` (`sahara_core::accel::Accel`)",
     note = "implement `Accel` for `{Self}`: the front page of sahara's documentation walks through an example"
 )]
 pub trait Accel: Sized + Send + Sync + 'static {
-    /// Build parameters. The names of their serialised fields are the keys on the command line and in exports.
+    /// Build parameters. The names of the serialised fields are keys on the command line and in exports.
     type Config: Clone + Debug + Default + Serialize + DeserializeOwned + Send + Sync + 'static;
 
-    /// Name of the triangle test. Structures with the same test return the same bits of `t`. `"own"` is a private test.
+    /// Name of the triangle test. Structures that share a triangle test return bit-identical `t`. The name `"own"`
+    /// means that the triangle test is not shared.
     const TRIANGLE_TEST: &'static str = "own";
 
-    /// Deliberate deviations from the contract, one clause each; `sahara list` prints them. Deviations that change hits
-    /// also belong in [`CAPABILITIES`](Accel::CAPABILITIES): otherwise they count as errors. Do not list defects.
+    /// Deliberate deviations from the conventions of other structures, one clause each. Do not list defects.
     const CONVENTIONS: &'static [&'static str] = &[];
 
     /// The events that the structure reports to the observer.
     const OBSERVED: Observed = Observed::ALL;
 
-    /// The features that the structure supports; by default all.
+    /// The features that the structure supports.
     const CAPABILITIES: Capabilities = Capabilities::ALL;
 
     /// Builds the structure over a mesh.
@@ -82,9 +81,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
     /// Whether `ray` hits anything.
     ///
-    /// The default runs the closest-hit query and, if the structure declines [`Capabilities::t_max`], checks that the
-    /// rounded `t` lies before `t_max`. A structure that keeps the default should decline [`Capabilities::any_hit`]:
-    /// otherwise the time of a closest-hit query is reported as an any-hit time.
+    /// The default implementation calls `closest_hit`. If [`Capabilities::t_max`] is `false`, the default
+    /// implementation ignores a hit at or beyond `t_max`. A structure with the default implementation should set
+    /// [`Capabilities::any_hit`] to `false`.
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         let may_be_beyond = !Self::CAPABILITIES.t_max;
@@ -103,7 +102,7 @@ pub trait Accel: Sized + Send + Sync + 'static {
         }
     }
 
-    /// For each ray of a batch, whether it hits anything.
+    /// Whether each ray of a batch hits anything.
     ///
     /// # Panics
     /// If the slices differ in length.
@@ -115,11 +114,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
         }
     }
 
-    /// Loads a batch of rays for many queries. Loading happens before the clock starts, so it is not timed.
+    /// Loads a batch of rays for many queries. The time of `load` is not measured.
     ///
-    /// The default keeps the rays unchanged, and every query prepares them in its timed region. An adapter to a library
-    /// with its own ray type converts the rays here, once, so the conversion is not timed. Prepare here only data that
-    /// can be computed from the rays without the tree; do not traverse.
+    /// An adapter converts the rays to the ray type of a library here. The loaded data must not depend on the tree.
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         Box::new(RayBatch { accel: self, rays })
     }
@@ -131,11 +128,11 @@ pub trait Accel: Sized + Send + Sync + 'static {
     fn shape(&self) -> TreeShape;
 }
 
-/// Type-erased [`Accel`]: one virtual call per batch, which runs monomorphised code.
+/// Type-erased [`Accel`], with one virtual call per batch.
 pub trait DynAccel: Send + Sync {
-    /// See [`Accel::closest_hits`]; without an observer.
+    /// See [`Accel::closest_hits`], without an observer.
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
-    /// See [`Accel::any_hits`]; without an observer.
+    /// See [`Accel::any_hits`], without an observer.
     fn any_hits(&self, rays: &[Ray], hits: &mut [bool]);
     /// The closest hit of each ray.
     fn closest(&self, rays: &[Ray]) -> Vec<Option<Hit>> {
@@ -143,23 +140,23 @@ pub trait DynAccel: Send + Sync {
         self.closest_hits(rays, &mut hits);
         hits
     }
-    /// For each ray, whether it hits anything.
+    /// Whether each ray hits anything.
     fn any(&self, rays: &[Ray]) -> Vec<bool> {
         let mut hits = vec![false; rays.len()];
         self.any_hits(rays, &mut hits);
         hits
     }
-    /// Like `closest_hits`; adds the steps and triangle tests to `counts`.
+    /// Runs `closest_hits`. Adds the steps and triangle tests to `counts`.
     fn closest_hits_counted(&self, rays: &[Ray], hits: &mut [Option<Hit>], counts: &mut Counts);
-    /// Like `any_hits`; adds the steps and triangle tests to `counts`.
+    /// Runs `any_hits`. Adds the steps and triangle tests to `counts`.
     fn any_hits_counted(&self, rays: &[Ray], hits: &mut [bool], counts: &mut Counts);
     /// See [`Accel::load`].
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         Box::new(RayBatch { accel: self, rays })
     }
-    /// [`Accel::OBSERVED`].
+    /// See [`Accel::OBSERVED`].
     fn observed(&self) -> Observed;
-    /// [`Accel::CAPABILITIES`].
+    /// See [`Accel::CAPABILITIES`].
     fn capabilities(&self) -> Capabilities {
         Capabilities::ALL
     }
@@ -167,15 +164,15 @@ pub trait DynAccel: Send + Sync {
     fn footprint(&self) -> Footprint;
     /// See [`Accel::shape`].
     fn shape(&self) -> TreeShape;
-    /// Additional information, if the structure runs in another process.
+    /// The [`Remote`] interface of a structure in another process.
     fn remote(&self) -> Option<&dyn Remote> {
         None
     }
 }
 
-// An inherent method is compiled once, a trait method once for each structure and triangle test.
+// An inherent method is compiled once. A trait method would be compiled once per structure.
 impl dyn DynAccel + '_ {
-    /// The closest hit of each ray. All threads of the pool trace chunks of `chunk` rays.
+    /// The closest hit of each ray. The threads of the current rayon pool trace chunks of `chunk` rays.
     pub fn closest_by_chunks(&self, rays: &[Ray], chunk: usize) -> Vec<Option<Hit>> {
         let mut hits = vec![None; rays.len()];
         let chunks = rays.par_chunks(chunk).zip(hits.par_chunks_mut(chunk));
@@ -222,7 +219,6 @@ impl<A: Accel> DynAccel for A {
     }
 }
 
-/// A batch of unprepared rays: the structure prepares them in each query.
 struct RayBatch<'a, A: ?Sized> {
     accel: &'a A,
     rays: Cow<'a, [Ray]>,
@@ -244,7 +240,6 @@ mod tests {
 
     use super::*;
 
-    /// Returns a hit at `t` = 1 for every ray; declines `t_max` if `ENDS` is false.
     struct AtOne<const ENDS: bool>;
 
     impl<const ENDS: bool> Accel for AtOne<ENDS> {
@@ -272,7 +267,7 @@ mod tests {
     #[test]
     fn the_default_any_hit_follows_from_the_closest_hit() {
         let until = |t_max| Ray::new(Vec3::ZERO, Vec3::X).until(t_max);
-        // An exact `t` before `t_max` may round to `t_max`. The default accepts it if the structure supports `t_max`.
+        // An exact `t` below `t_max` may round to `t_max`.
         assert!(AtOne::<true>.any_hit(&until(1.0), &mut ()));
         assert!(!AtOne::<false>.any_hit(&until(1.0), &mut ()) && AtOne::<false>.any_hit(&until(1.5), &mut ()));
     }

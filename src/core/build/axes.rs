@@ -1,4 +1,3 @@
-/// The results of `of` for the axes 0, 1 and 2, computed in parallel if `much`.
 pub(super) fn on_axes<T: Send>(much: bool, of: impl Fn(usize) -> T + Sync) -> [T; 3] {
     if !much {
         return [0, 1, 2].map(of);

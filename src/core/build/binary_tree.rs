@@ -2,29 +2,31 @@
 
 use crate::geometry::Aabb;
 
-/// The nodes in depth-first order: a node, then the subtree of its first child, then the subtree of its second child. A
-/// subtree is therefore a range of nodes and a range of references. A tree without triangles has no nodes.
+/// Nodes are in depth-first order, with the subtree of the first child before the subtree of the second. A subtree is
+/// therefore a range of nodes and a range of references. A tree without triangles has no nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BinaryTree {
     pub nodes: Vec<BinaryNode>,
-    /// The triangles of all leaves, one leaf after the other.
+    /// The triangle numbers of all leaves, in the order of the leaves.
     pub references: Vec<u32>,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
-    /// The bounds of the node's references, rounded outward; a cut triangle contributes only its part in the node. Not
-    /// empty in a finished tree.
+    /// A box around the references of the node, rounded outward. A cut triangle contributes only its part in the node.
+    /// The box is not empty in a finished tree.
     pub bounds: Aabb,
     pub content: Content,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Content {
-    /// The indices of the two children.
     Inner([u32; 2]),
     /// A nonempty range of references.
-    Leaf { first: u32, count: u32 },
+    Leaf {
+        first: u32,
+        count: u32,
+    },
 }
 
 impl BinaryTree {

@@ -1,4 +1,4 @@
-//! Helpers for the tests of all tree builders: meshes, and checks of the invariants of every binary tree.
+//! Meshes and checks of invariants for the tests of all tree builders.
 
 use std::fmt::Debug;
 
@@ -18,7 +18,6 @@ pub fn mesh(count: usize, corners: impl FnMut(usize) -> [Vec3; 3]) -> Mesh {
     Mesh::from_triangles(&triangles).unwrap()
 }
 
-/// Checks that the result of `build` does not depend on the number of threads.
 pub fn same_on_threads<R: Debug>(build: impl Fn() -> R + Sync) {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -33,7 +32,7 @@ pub fn soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 50, 0.1)
 }
 
-/// Like [`soup`], with more large triangles: planes cut many of them.
+/// Like [`soup`], with more large triangles, which planes cut.
 pub fn straddling_soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 10, 0.2)
 }
@@ -47,7 +46,7 @@ fn mixed(count: usize, seed: u64, every: usize, small: f32) -> Mesh {
     })
 }
 
-/// Needles that all pass near the origin, so a plane near the origin cuts almost all of them.
+/// All needles pass near the origin, so a plane near the origin cuts almost all of them.
 pub fn needles(count: usize, seed: u64) -> Mesh {
     let mut rng = Pcg32::seed_from_u64(seed);
     mesh(count, |_| {
@@ -56,7 +55,7 @@ pub fn needles(count: usize, seed: u64) -> Mesh {
     })
 }
 
-/// A room: axis-aligned planes of right triangles, like the walls, floors and tables of buildings.
+/// Axis-aligned planes of right triangles, like the walls and floors of buildings.
 pub fn room(cells: usize) -> Mesh {
     let mut corners = vec![];
     for axis in 0..3 {
@@ -76,7 +75,6 @@ pub fn room(cells: usize) -> Mesh {
     Mesh::from_triangles(&corners).unwrap()
 }
 
-/// A random point of a triangle.
 pub fn point_in(rng: &mut Pcg32, corners: [Vec3; 3]) -> DVec3 {
     let [p, q, r] = corners.map(Vec3::as_dvec3);
     let (u, v) = (f64::from(rng.next_u32()) / 4294967295.0, f64::from(rng.next_u32()) / 4294967295.0);
@@ -84,16 +82,16 @@ pub fn point_in(rng: &mut Pcg32, corners: [Vec3; 3]) -> DVec3 {
     p + (q - p) * u + (r - p) * v
 }
 
-/// Whether the point lies in the closed box.
 pub fn holds(bounds: &Aabb, point: DVec3) -> bool {
     bounds.min.as_dvec3().cmple(point).all() && bounds.max.as_dvec3().cmpge(point).all()
 }
 
-/// The boxes and references of all leaves. Checks the tree's invariants, and that no leaf exceeds `most` references.
+/// Returns the boxes and references of all leaves. Checks the invariants of the tree, with at most `most` references
+/// per leaf.
 pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     let mut found = vec![];
     let mut next = 0;
-    // The nodes that must follow in depth-first order; the next node is on top.
+    // The nodes that must follow in depth-first order, with the next node on top.
     let mut stack = if tree.nodes.is_empty() { vec![] } else { vec![0] };
     for (at, node) in tree.nodes.iter().enumerate() {
         assert_eq!(stack.pop(), Some(at as u32), "nodes are in depth-first order");
@@ -134,7 +132,7 @@ pub fn covers(tree: &BinaryTree, mesh: &Mesh, seed: u64) {
     }
 }
 
-/// Checks that no two leaves have a volume in common.
+/// Leaves may touch, but have no volume in common.
 pub fn disjoint(leaves: &[(Aabb, &[u32])]) {
     for (i, (a, _)) in leaves.iter().enumerate() {
         for (b, _) in &leaves[..i] {

@@ -1,4 +1,4 @@
-//! Computes a box around the part of a triangle that lies in a cell, for "perfect" splits (Wald, Havran 2006).
+//! Boxes of the parts of triangles in cells, for "perfect" splits (Wald, Havran 2006).
 
 use glam::{DVec3, Vec3};
 
@@ -7,18 +7,20 @@ use crate::geometry::{Aabb, round_down, round_up};
 /// Maximum number of corners after six planes have cut a triangle.
 const CORNERS: usize = 9;
 
-/// Bound on the error of a coordinate of a computed corner, as a multiple of M, the triangle's largest absolute
-/// coordinate on the axis. The interpolation a + (b - a) w, w = (s - a) / (b - a), rounds six times: five errors are at
-/// most two units of 2^-53 M, the last one is at most one unit. At most seven interpolations in a row give 77 units.
+/// Bound on the error of a coordinate of a computed corner, as a multiple of M. M is the largest absolute coordinate of
+/// the triangle on the axis. The interpolation a + (b - a) w, w = (s - a) / (b - a), rounds six times. Five errors are
+/// at most two units of 2^-53 M. The last error is at most one unit. At most seven interpolations in a row give 77
+/// units.
 ///
 /// Clipping moves each plane outward by this bound. A point of the triangle in the cell therefore stays in the polygon,
-/// up to the error of the corners, even if an edge with computed ends is almost parallel to a plane.
+/// within the error of the corners.
 const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 
-/// A box around the part of a triangle in `cell`. It lies in `cell` and in `known`, a box of the part in a larger cell.
+/// A box around the part of a triangle in `cell`, rounded outward. `known` is a box of the triangle's part in a larger
+/// cell. The result lies in `cell` and in `known`.
 ///
-/// Clips in f64 (Sutherland, Hodgman 1974) and rounds the box outward. If rounding errors leave an empty box, the
-/// result is the intersection of `known` and `cell`, so a triangle that reaches into the cell is never dropped.
+/// Clips in f64 (Sutherland, Hodgman 1974). If rounding leaves an empty box, the result is the intersection of `known`
+/// and `cell`. A triangle that reaches into the cell is therefore never dropped.
 pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
     Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
 }
@@ -36,7 +38,7 @@ pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: 
     (half(below, -1.0), half(above, 1.0))
 }
 
-/// A convex polygon. Each corner has a flag: `true` if it is computed and therefore rounded.
+/// A convex polygon. The flag of a corner is `true` if the corner is computed and therefore rounded.
 struct Polygon {
     corners: [(DVec3, bool); CORNERS],
     len: usize,
@@ -44,7 +46,6 @@ struct Polygon {
 }
 
 impl Polygon {
-    /// The part of a triangle in `cell`.
     fn clipped(corners: [Vec3; 3], cell: &Aabb) -> Self {
         let corners = corners.map(Vec3::as_dvec3);
         let largest = corners.iter().fold(DVec3::ZERO, |m, p| m.max(p.abs()));
@@ -125,7 +126,6 @@ impl CornerBox {
         self.max = self.max.max(p + slack);
     }
 
-    /// The box, rounded outward to f32, intersected with `cut`. If this intersection is empty, the result is `cut`.
     fn in_cut(&self, cut: Aabb) -> Aabb {
         let tight = Aabb {
             min: Vec3::from_array(self.min.to_array().map(round_down)),
@@ -164,7 +164,6 @@ mod tests {
             }
             assert!(cell.contains(&clipped) && known.contains(&clipped));
 
-            // Points of the triangle (in f64) that lie in the cell must lie in the clipped box.
             for _ in 0..20 {
                 let x = point_in(&mut rng, corners);
                 if holds(&cell, x) {
@@ -211,7 +210,6 @@ mod tests {
         let mut rng = rand_pcg::Pcg32::seed_from_u64(12);
         let mut cuts = 0;
         for _ in 0..100_000 {
-            // The triangle passes near the origin. Its edges often have two equal components.
             let middle = point(&mut rng) * SMALL;
             let mut reach: [Vec3; 2] = std::array::from_fn(|_| point(&mut rng) * 1e4);
             let [a, b, flat] = std::array::from_fn(|_| (rng.next_u32() % 3) as usize);
@@ -221,7 +219,7 @@ mod tests {
             }
             let corners = [middle - reach[0], middle + reach[0] - reach[1] * 0.5, middle + reach[1]];
 
-            // The hit of a ray along an axis is known exactly: only one coordinate depends on `t`.
+            // The hit of a ray along an axis is known exactly, because only one coordinate depends on `t`.
             let along = (rng.next_u32() % 3) as usize;
             let (mut origin, mut direction) = (point(&mut rng) * SMALL, Vec3::ZERO);
             (origin[along], direction[along]) = (0.0, 1.0);
@@ -231,7 +229,6 @@ mod tests {
             };
             let inside = |b: &Aabb| (0..3).all(|i| order(i, b.min[i]) != Less && order(i, b.max[i]) != Greater);
 
-            // Cut close to the hit, and keep the side that contains it.
             let mut bounds = Aabb::of_points(corners);
             for _ in 0..8 {
                 let axis = (rng.next_u32() % 3) as usize;

@@ -2,12 +2,11 @@ use rayon::prelude::*;
 
 use super::reference::{CHUNK, PARALLEL, Reference};
 
-/// A plane that cuts the references of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cut {
     pub axis: usize,
     pub plane: f32,
-    /// Whether references that lie in the plane go below; otherwise they go above.
+    /// Whether references in the plane go below. Otherwise they go above.
     pub flat_below: bool,
 }
 
@@ -22,7 +21,6 @@ impl Cut {
         }
     }
 
-    /// The number of references on each side.
     pub fn counts(&self, references: &[Reference]) -> [usize; 2] {
         let count = |references: &[Reference]| {
             references.iter().fold([0; 2], |[below, above], r| {

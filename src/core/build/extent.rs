@@ -23,7 +23,7 @@ impl Extent {
         Self { min: point.min(self.min), max: point.max(self.max) }
     }
 
-    /// Half of the surface area of the intersection of two boxes; 0 if the boxes are disjoint.
+    /// Half of the surface area of the intersection.
     pub fn overlap(self, other: Self) -> f64 {
         let common = self.intersection(other);
         if common.min.cmple(common.max).all() { common.half_area() } else { 0.0 }
@@ -52,7 +52,7 @@ impl Extent {
         self
     }
 
-    /// Half of the surface area, in `f64` to avoid overflow; a negative edge counts as 0.
+    /// Half of the surface area, in `f64` to avoid overflow. A negative edge counts as 0.
     #[inline(always)]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())

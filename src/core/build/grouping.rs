@@ -2,7 +2,7 @@
 
 use super::reference::Reference;
 
-/// A rule that divides references into two groups, by the centres of their boxes on an axis.
+/// Divides references into two groups by the centres of their boxes on an axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Group {
     /// The first group has the references in the bins `0..=last`.
@@ -11,7 +11,6 @@ pub(crate) enum Group {
     First { axis: usize, count: usize },
 }
 
-/// Bins of equal width over the range of the centres.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bins {
     axis: usize,
@@ -20,7 +19,7 @@ pub(crate) struct Bins {
     pub count: usize,
 }
 
-/// Maximum number of bins.
+/// Maximum number of bins per axis.
 pub(crate) const BINS: usize = 64;
 
 impl Bins {
@@ -35,7 +34,8 @@ impl Bins {
     }
 }
 
-/// Halves the references by centres, on the axis where the centres vary most. The first group fills whole blocks.
+/// Halves the references by centres, on the axis where the centres vary most. The first group fills whole blocks if the
+/// second group stays nonempty.
 pub(crate) fn median(references: &[Reference], block: usize) -> (Group, [usize; 2]) {
     let width = |axis| {
         let (min, max) = centres(references.iter(), axis);
@@ -46,7 +46,6 @@ pub(crate) fn median(references: &[Reference], block: usize) -> (Group, [usize; 
     (Group::First { axis, count }, [count, references.len() - count])
 }
 
-/// The least and the greatest centre on `axis`.
 pub(crate) fn centres<'a>(references: impl Iterator<Item = &'a Reference>, axis: usize) -> (f32, f32) {
     let with = |(min, max): (f32, f32), r: &Reference| (min.min(r.centre(axis)), max.max(r.centre(axis)));
     references.fold((f32::INFINITY, f32::NEG_INFINITY), with)
@@ -63,7 +62,7 @@ pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
 /// Maps floats to integers in the same order. Both zeros give the same integer.
 #[inline(always)]
 pub(crate) fn ordered_bits(x: f32) -> u32 {
-    // Adding 0.0 turns -0.0 into 0.0. The bits of negative floats descend: flip all. In other floats, set the top bit.
+    // Adding 0.0 turns -0.0 into 0.0. The bits of negative floats descend, so flip all bits.
     let bits = (x + 0.0).to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

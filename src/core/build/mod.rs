@@ -1,4 +1,4 @@
-//! Code that the builders share: clipped references, costs, the search for splits, binary trees, reinsertion.
+//! Code that the tree builders share.
 
 mod axes;
 pub(crate) mod binary_tree;

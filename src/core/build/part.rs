@@ -39,7 +39,7 @@ impl Part {
     }
 }
 
-/// Divides references into two parts. `counts` are the expected sizes; `place` adds a reference to one part or both.
+/// `counts` are the expected sizes. `place` adds a reference to one part or to both parts.
 fn deal(
     references: Vec<Reference>,
     counts: [usize; 2],
@@ -54,7 +54,7 @@ fn deal(
         return dealt(&references, counts);
     }
 
-    // Chunks are divided in any order and joined in order.
+    // Join the chunks in order, so the result does not depend on the threads.
     let chunks: Vec<[Part; 2]> = references.par_chunks(CHUNK).map(|chunk| dealt(chunk, [CHUNK / 2; 2])).collect();
     drop(references);
     let (below, above): (Vec<Part>, Vec<Part>) = chunks.into_iter().map(|[below, above]| (below, above)).unzip();
@@ -70,7 +70,7 @@ fn deal(
     [below, above]
 }
 
-/// Cuts at a plane. A reference on both sides is clipped to each side; no reference is dropped.
+/// A reference on both sides is clipped to each side. No reference is dropped.
 pub(crate) fn at_plane(mesh: &Mesh, references: Vec<Reference>, cut: Cut, counts: [usize; 2]) -> [Part; 2] {
     deal(references, counts, |r, [below, above]| match cut.sides(r) {
         [true, true] => {
@@ -83,7 +83,6 @@ pub(crate) fn at_plane(mesh: &Mesh, references: Vec<Reference>, cut: Cut, counts
     })
 }
 
-/// Divides references into two groups by the [`median`].
 pub(crate) fn halves(references: Vec<Reference>) -> [Part; 2] {
     let (group, counts) = median(&references, BLOCK);
     by_group(references, group, counts)

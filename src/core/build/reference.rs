@@ -4,14 +4,13 @@ use super::clip::cut_bounds;
 use super::extent::Extent;
 use crate::geometry::{Aabb, Mesh};
 
-/// Nodes with at least this many references are processed by several threads.
+/// Several threads process a node with at least this many references.
 pub(crate) const PARALLEL: usize = 4096;
 
-/// References per task of a thread.
+/// Number of references per parallel task.
 pub(crate) const CHUNK: usize = 2048;
 
-/// A triangle number and the box of the triangle's part in a node. Each corner of the box is one SIMD load. The fourth
-/// lane of the lower corner has the triangle number.
+/// A triangle number and the box of the triangle's part in a node. The fourth lane of `low` has the bits of the number.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Reference {

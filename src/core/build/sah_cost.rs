@@ -3,15 +3,14 @@
 use crate::geometry::Aabb;
 use crate::triangle::BLOCK;
 
-/// Expected cost of a tree for a random line that meets its box (Goldsmith, Salmon 1987; MacDonald, Booth 1990), with
-/// the empty-space bonus of Wald and Havran (2006). Leaves test a block of triangles at once.
+/// Expected cost of a tree for a random line through the root box (Goldsmith, Salmon 1987; MacDonald, Booth 1990). The
+/// empty-space bonus comes from Wald and Havran (2006). A leaf tests a block of triangles at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CostModel {
-    /// Cost of a step from a node to its children.
     step: f64,
-    /// Cost of testing a block.
+    /// Cost of the test of one block of triangles.
     block: f64,
-    /// Share of the cost that a split saves if it cuts off empty space.
+    /// A split that cuts off empty space saves this share of the cost.
     empty_bonus: f64,
 }
 
@@ -20,13 +19,12 @@ impl CostModel {
         Self { step: step.into(), block: block.into(), empty_bonus: empty_bonus.into() }
     }
 
-    /// Cost of testing `count` triangles.
     #[inline(always)]
     pub fn leaf(&self, count: usize) -> f64 {
         self.block * count.div_ceil(BLOCK) as f64
     }
 
-    /// Cost of a cell that is cut at `plane` into two leaves with `below` and `above` triangles.
+    /// Cost of a cell that is cut at `plane` into two leaves.
     #[inline(always)]
     pub fn cell_split(&self, cell: &SideAreas, plane: f32, [below, above]: [usize; 2]) -> f64 {
         let [below_area, above_area] = cell.at(plane.into());
@@ -35,19 +33,20 @@ impl CostModel {
         if below == 0 || above == 0 { cost * (1.0 - self.empty_bonus) } else { cost }
     }
 
-    /// Cost of a leaf with `count` triangles, times `area`, the half area of its box.
+    /// Cost of a leaf, multiplied by the half area of the leaf's box.
     #[inline(always)]
     pub fn box_leaf(&self, area: f64, count: usize) -> f64 {
         area * self.block * count.div_ceil(BLOCK) as f64
     }
 
-    /// Cost of an inner node, times its area; `children` is the sum of the children's costs, each times its area.
+    /// Cost of a subtree, multiplied by the half area of the subtree's box. `children` is the sum of the products for
+    /// both child subtrees.
     #[inline(always)]
     pub fn box_node(&self, area: f64, children: f64) -> f64 {
         self.step * area + children
     }
 
-    /// Cost of a node that is split into two leaves with these areas and counts, times the area of the node.
+    /// Cost of a node with two leaves, multiplied by the half area of the node's box.
     #[inline(always)]
     pub fn box_split(&self, area: f64, areas: [f64; 2], counts: [usize; 2]) -> f64 {
         self.box_node(area, self.box_leaf(areas[0], counts[0]) + self.box_leaf(areas[1], counts[1]))
@@ -61,7 +60,7 @@ pub(crate) struct SideAreas {
     max: f64,
     caps: f64,
     girth: f64,
-    /// The reciprocal half area of the cell.
+    /// The reciprocal of the half area of the cell.
     inverse: f64,
 }
 

@@ -1,6 +1,6 @@
 use super::reference::Reference;
 
-/// Every `stride`-th reference of a node. With thousands of references, a sample suffices to find a good split.
+/// Every `stride`-th reference of a node.
 #[derive(Clone, Copy)]
 pub(crate) struct Sample<'a> {
     references: &'a [Reference],
@@ -30,7 +30,7 @@ impl<'a> Sample<'a> {
         self.references.len()
     }
 
-    /// Estimates the number of references in the node from `count` references in the sample.
+    /// Scales `count`, a number of sampled references, to the whole node.
     #[inline(always)]
     pub fn scaled(&self, count: usize) -> usize {
         (count * self.stride).min(self.references.len())

@@ -1,4 +1,5 @@
-//! Boxes of the slices of a triangle between parallel planes. Only costs use them, so they are not rounded outward.
+//! Boxes of the slices of a triangle between parallel planes. The boxes are not rounded outward, because only costs use
+//! them.
 
 use glam::Vec3A;
 
@@ -8,7 +9,6 @@ use super::planes::Planes;
 /// A triangle with its corners in ascending order on an axis.
 struct Slicer<const AXIS: usize> {
     corners: [Vec3A; 3],
-    /// Reciprocal lengths of the edges 0-1, 1-2 and 0-2 on the axis; 0 for a length of 0.
     inverse: [f32; 3],
 }
 
@@ -35,7 +35,7 @@ impl<const AXIS: usize> Slicer<AXIS> {
         Self { corners: [a, b, c], inverse: [inverse(a, b), inverse(b, c), inverse(a, c)] }
     }
 
-    /// The box of the segment in which the plane at `x` cuts the triangle. `x` must lie between the outer corners.
+    /// `x` must lie between the outer corners.
     #[inline(always)]
     fn section(&self, x: f32) -> Extent {
         let [a, b, c] = self.corners;
@@ -47,7 +47,7 @@ impl<const AXIS: usize> Slicer<AXIS> {
     }
 }
 
-/// Slices the part of a triangle in the box `part`. Calls `grow` with each bin in `first..=last` and its slice's box.
+/// Calls `grow` with each bin and the box of its slice, clipped to `part`.
 #[inline(always)]
 pub(super) fn slice<const AXIS: usize>(
     corners: [Vec3A; 3],

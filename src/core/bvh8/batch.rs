@@ -10,14 +10,13 @@ use crate::accel::Observer;
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, dispatch, each};
 use crate::traversal::leaf::Nearest;
-use crate::traversal::walk::{silent, single};
+use crate::traversal::walk::{single, walk_without_observer};
 use crate::triangle::{Depth, INPUTS, TriangleTest, last_bits};
 
-/// Rays per window: slices are traced window by window. Few interleaved rays are active at the end of a window, so
-/// windows are large.
+/// Rays are traced in large windows, because few interleaved rays are active at the end of a window.
 const WINDOW: usize = 4096;
 
-/// A subset of the groups of a window, in ascending order. A group has sixteen rays; the last one may have fewer.
+/// A subset of the groups of `RAYS` rays of a window, in ascending order.
 pub(super) struct Groups {
     numbers: [u8; WINDOW / RAYS],
     len: usize,
@@ -28,7 +27,6 @@ const _: () = assert!(WINDOW / RAYS <= 1 << u8::BITS);
 impl Groups {
     const NONE: Self = Self { numbers: [0; WINDOW / RAYS], len: 0 };
 
-    /// All groups of a window of `rays` rays.
     #[cfg(test)]
     pub fn all(rays: usize) -> Self {
         Self { numbers: std::array::from_fn(|i| i as u8), len: rays.div_ceil(RAYS) }
@@ -40,14 +38,14 @@ impl Groups {
         self.len += 1;
     }
 
-    /// For each group, the range of its rays in a window of `rays` rays.
+    /// For each group, the range of the indices of its rays in a window of `rays` rays.
     #[inline(always)]
     fn places(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let first = |&number: &u8| usize::from(number) * RAYS;
         self.numbers[..self.len].iter().map(first).map(move |first| first..rays.min(first + RAYS))
     }
 
-    /// The ranges of [`places`](Self::places), with adjacent ranges joined.
+    /// Like [`places`](Self::places), with adjacent ranges joined.
     fn runs(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let numbers = &self.numbers[..self.len];
         numbers.chunk_by(|one, next| next - one == 1).map(move |run| {
@@ -57,9 +55,7 @@ impl Groups {
     }
 }
 
-/// Hits whose `t` are computed together, so the computation of one `t` does not wait for the previous `t`.
 struct HitBatch {
-    /// [`Depth::inputs`] of the hits; `rays` and `ids` are the numbers of their rays and triangles.
     inputs: [[f32; HITS]; INPUTS],
     rays: [usize; HITS],
     ids: [u32; HITS],
@@ -71,9 +67,7 @@ const HITS: usize = 8;
 impl HitBatch {
     const NONE: Self = Self { inputs: [[0.0; HITS]; INPUTS], rays: [0; HITS], ids: [0; HITS], len: 0 };
 
-    /// Adds a hit of ray number `i`. Returns true if the batch is full: the caller must then call `finish`.
-    ///
-    /// Stores inputs, not a copy of the depth: a copy would load fields that were just written, and these loads stall.
+    /// Returns true if the batch is full. The caller must then call `finish`.
     #[must_use]
     #[inline(always)]
     fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {
@@ -87,7 +81,6 @@ impl HitBatch {
         self.len == HITS
     }
 
-    /// Computes the `t` of the hits, passes each hit to `hit`, and empties the batch.
     #[inline(always)]
     fn finish<D: Depth>(&mut self, level: Level, mut hit: impl FnMut(usize, Hit)) {
         let len = std::mem::take(&mut self.len);
@@ -101,12 +94,11 @@ impl HitBatch {
     }
 }
 
-/// Traces one ray after the other.
 struct InOrder<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a Bvh8<T>,
     rays: &'a [Ray],
     answers: &'a mut [A],
-    form: F,
+    convert: F,
     level: Level,
 }
 
@@ -115,16 +107,16 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
 
     #[inline(always)]
     fn run<L: EightLanes>(self) {
-        let Self { tree, rays, answers, form, level } = self;
+        let Self { tree, rays, answers, convert, level } = self;
         if ANY || !T::Depth::LATE || !L::FAST {
-            // `t` is not needed (`ANY`), or known from the search, or eight `t` at once take as long as one by one.
+            // A batch saves time only if `t` is computed after the search, on SIMD lanes.
             for (answer, ray) in answers.iter_mut().zip(rays) {
-                *answer = form(silent::<ANY, L, _>(tree, ray));
+                *answer = convert(walk_without_observer::<ANY, L, _>(tree, ray));
             }
             return;
         }
         let mut hits = HitBatch::NONE;
-        let mut answer = |i: usize, hit: Option<Hit>| answers[i] = form(hit);
+        let mut answer = |i: usize, hit: Option<Hit>| answers[i] = convert(hit);
         for (i, ray) in rays.iter().enumerate() {
             let mut nearest = Nearest::NOTHING;
             tree.find::<ANY, L, ()>(ray, &mut nearest, &mut ());
@@ -146,7 +138,7 @@ struct InPackets<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a Bvh8<T>,
     rays: &'a [Ray],
     answers: &'a mut [A],
-    form: &'a F,
+    convert: &'a F,
     level: Level,
 }
 
@@ -155,12 +147,12 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
 
     #[inline(always)]
     fn run<L: EightLanes>(self) -> Groups {
-        let Self { tree, rays, answers, form, level } = self;
+        let Self { tree, rays, answers, convert, level } = self;
         let mut others = Groups::NONE;
         for (number, (rays, answers)) in rays.chunks(RAYS).zip(answers.chunks_mut(RAYS)).enumerate() {
             let together = match (rays.try_into(), answers.try_into()) {
                 (Ok(rays), Ok(answers)) if L::FAST => {
-                    alike(rays) && tree.intersect_packet::<ANY, L, A>(level, rays, answers, form)
+                    may_share_octant(rays) && tree.intersect_packet::<ANY, L, A>(level, rays, answers, convert)
                 }
                 _ => false,
             };
@@ -172,13 +164,12 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Finds the closest hits of some groups of a window by interleaving. A separate kernel for this is faster.
 pub(super) struct Interleaved<'a, T: TriangleTest, A, F> {
     pub tree: &'a Bvh8<T>,
     pub rays: &'a [Ray],
     pub which: &'a Groups,
     pub answers: &'a mut [A],
-    pub form: &'a F,
+    pub convert: &'a F,
 }
 
 impl<T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Interleaved<'_, T, A, F> {
@@ -186,71 +177,68 @@ impl<T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Interleaved<'_, T, 
 
     #[inline(always)]
     fn run<L: EightLanes>(self) {
-        let Self { tree, rays, which, answers, form } = self;
+        let Self { tree, rays, which, answers, convert } = self;
         if !L::FAST {
-            // Portable lanes are limited by arithmetic, not by memory.
+            // Interleaving hides the latency of memory, but portable lanes are limited by arithmetic.
             for i in which.places(rays.len()).flatten() {
-                answers[i] = form(silent::<false, L, _>(tree, &rays[i]));
+                answers[i] = convert(walk_without_observer::<false, L, _>(tree, &rays[i]));
             }
             return;
         }
         let mut slots = Slots::EMPTY;
         let which = which.places(rays.len()).flatten().map(|i| (i, &rays[i]));
-        Stream::<T>::new(tree, &mut slots).run::<L>(which, |i, hit| answers[i] = form(hit));
+        Stream::<T>::new(tree, &mut slots).run::<L>(which, |i, hit| answers[i] = convert(hit));
     }
 }
 
-/// Whether rays 0, 5, 10 and 15 have the same octant. This quick test rejects most groups that cannot form a packet.
+/// A quick test that rejects most groups of rays that do not share an octant.
 #[inline(always)]
-fn alike(rays: &[Ray; RAYS]) -> bool {
+fn may_share_octant(rays: &[Ray; RAYS]) -> bool {
     let signs = |i: usize| each(&rays[i].direction.to_array(), |x| x.to_bits());
     let first = signs(0);
     let differ = |i: usize| (0..3).fold(0, |bits, axis| bits | (signs(i)[axis] ^ first[axis]));
     (differ(5) | differ(10) | differ(15)) >> 31 == 0
 }
 
-/// Traces `rays` on the current SIMD level and writes `form` of each hit to `answers`, in the order of the rays.
 pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     tree: &Bvh8<T>,
     rays: &[Ray],
     answers: &mut [A],
     observer: &mut O,
-    form: impl Fn(Option<Hit>) -> A,
+    convert: impl Fn(Option<Hit>) -> A,
 ) {
     assert_eq!(rays.len(), answers.len(), "one result per ray");
     if O::ACTIVE {
-        // With an observer, rays are traced one after the other.
         for (answer, ray) in answers.iter_mut().zip(rays) {
-            *answer = form(single::<ANY, _, O>(tree, ray, observer));
+            *answer = convert(single::<ANY, _, O>(tree, ray, observer));
         }
     } else {
         let level = Level::current();
         if !T::BATCHED || tree.batch == Batch::Single {
-            return dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form, level });
+            return dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, convert, level });
         }
         for (rays, answers) in rays.chunks(WINDOW).zip(answers.chunks_mut(WINDOW)) {
-            let form = &form;
-            let which = dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, form, level });
-            trace_single_rays::<ANY, T, A>(level, tree, rays, &which, answers, form);
+            let convert = &convert;
+            let which = dispatch(level, InPackets::<ANY, T, A, _> { tree, rays, answers, convert, level });
+            trace_single_rays::<ANY, T, A>(level, tree, rays, &which, answers, convert);
         }
     }
 }
 
-/// Traces the groups of a window that form no packet. Interleaving hides latency but costs instructions. It pays
-/// only for closest hits in large trees (TUNING.md).
+/// Interleaving is faster only for closest hits in large trees.
 fn trace_single_rays<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,
     rays: &[Ray],
     which: &Groups,
     answers: &mut [A],
-    form: &impl Fn(Option<Hit>) -> A,
+    convert: &impl Fn(Option<Hit>) -> A,
 ) {
     if !ANY && tree.interleaves {
-        return dispatch(level, Interleaved::<T, A, _> { tree, rays, which, answers, form });
+        return dispatch(level, Interleaved::<T, A, _> { tree, rays, which, answers, convert });
     }
     for places in which.runs(rays.len()) {
         let (rays, answers) = (&rays[places.clone()], &mut answers[places]);
-        dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, form, level });
+        dispatch(level, InOrder::<ANY, T, A, _> { tree, rays, answers, convert, level });
     }
 }

@@ -1,18 +1,19 @@
-//! The order in which rays visit the children of a node. Closest-hit queries use one order per octant of directions,
-//! which the build stores. Any-hit queries visit the lanes from the last to the first.
+//! The orders in which closest-hit queries visit the children of a node.
 
 use super::collapse::Collapse;
 
 impl Collapse<'_> {
-    /// For each octant, the lanes of the parts of `at` (at most `parts`) in visiting order: three bits per lane, the
-    /// last lane lowest. The second result is the bit count. `lanes` yields a lane per part, in the order of `gather`.
+    /// For each octant, the visiting order of the parts of `at`. The second result is the length of an order in bits.
+    ///
+    /// An order has three bits per lane; the lane that is visited last is lowest. `lanes` yields the lane of each part,
+    /// in the order of `gather`.
     pub(super) fn orders<'b>(
         &self,
         at: u32,
         parts: usize,
         lanes: &mut impl Iterator<Item = &'b u32>,
     ) -> ([u32; 8], u32) {
-        let Some([l, r]) = self.dealt(at, parts) else {
+        let Some([l, r]) = self.divided(at, parts) else {
             return ([*lanes.next().expect("a lane for each part"); 8], 3);
         };
         let ((left, left_bits), (right, right_bits)) = (self.orders(l.0, l.1, lanes), self.orders(r.0, r.1, lanes));
@@ -28,7 +29,8 @@ impl Collapse<'_> {
         (std::array::from_fn(order), left_bits + right_bits)
     }
 
-    /// The axis on which the boxes of `l` and `r` are furthest apart, and whether `r` comes before `l` on this axis.
+    /// The axis on which the boxes of `l` and `r` are furthest apart. The flag is true if `r` comes before `l` on this
+    /// axis.
     fn apart(&self, l: u32, r: u32) -> (usize, bool) {
         let [l, r] = [l, r].map(|at| &self.tree.nodes[at as usize].bounds);
         let (up, down) = (r.min - l.max, l.min - r.max);
@@ -48,9 +50,8 @@ mod tests {
     use crate::build::sah_cost::CostModel;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
 
-    /// A naive version of `orders`: gathers the parts in the visiting order of one octant.
     fn gathered(collapse: &Collapse, at: u32, parts: usize, octant: usize, into: &mut Vec<Part>) {
-        match collapse.dealt(at, parts) {
+        match collapse.divided(at, parts) {
             Some([l, r]) => {
                 let (axis, backward) = collapse.apart(l.0, r.0);
                 let right_first = backward != (octant >> axis & 1 == 1);

@@ -1,4 +1,4 @@
-//! Selects the nodes of a binary tree that become nodes and leaves of a wide tree, by dynamic programming.
+//! Collapses a binary tree to a wide tree, by dynamic programming.
 //!
 //! # References
 //! Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017, section 4.
@@ -9,12 +9,11 @@ use crate::build::sah_cost::CostModel;
 use crate::geometry::Aabb;
 
 /// Maximum number of blocks of a leaf that is merged from several leaves.
-const LARGEST: usize = 8;
+const MAX_MERGED_BLOCKS: usize = 8;
 
-/// If at least this many nodes are below a node, its two subtrees are processed in parallel.
 const PARALLEL: usize = 2048;
 
-/// For each node of a binary tree, the cheapest divisions of its subtree into at most 1, 2, ... 7 [`Part`]s.
+/// The cheapest divisions of each subtree of a binary tree into at most 1, 2, ... 7 [`Part`]s.
 pub(super) struct Collapse<'a> {
     pub(super) tree: &'a BinaryTree,
     best: Vec<Best>,
@@ -24,14 +23,13 @@ pub(super) struct Collapse<'a> {
 struct Best {
     /// `cost[i]`: the cost of the subtree if it is divided into at most `i + 1` parts.
     cost: [f32; WIDTH - 1],
-    /// `left[i]`: how many of `i + 1` parts the first child gets, or 0 if at most `i` parts cost no more.
-    /// `left[WIDTH - 1]`: how many of `WIDTH` parts the first child gets if this node becomes a wide node.
+    /// `left[i]`: how many of `i + 1` parts the first child gets. The number is 0 if a division into at most `i` parts
+    /// costs no more. `left[WIDTH - 1]` applies if this node becomes a wide node.
     left: [u8; WIDTH],
     /// Whether the node becomes a leaf if it is a single part.
     leaf: bool,
-    /// The range of references below the node.
     references: [u32; 2],
-    /// A lower bound of the number of distinct triangles in this range.
+    /// A lower bound of the number of distinct triangles below the node.
     triangles: u32,
 }
 
@@ -39,10 +37,8 @@ impl Best {
     const NONE: Self = Self { cost: [0.0; WIDTH - 1], left: [0; WIDTH], leaf: true, references: [0; 2], triangles: 0 };
 }
 
-/// A part of the tree that becomes one child of a wide node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// The binary node becomes a wide node.
     Node(u32),
     /// All triangles below the binary node become a leaf.
     Leaf(u32),
@@ -51,12 +47,12 @@ pub(super) enum Part {
 pub(super) struct Children {
     parts: [Part; WIDTH],
     len: usize,
-    /// The visiting order for each octant of directions, as stored in nodes.
+    /// The visiting orders, in the format of `Node::orders`.
     pub orders: [u32; 8],
 }
 
 impl Children {
-    /// The parts in the order of their lanes. They use the last lanes of the node.
+    /// The parts in the order of their lanes, which are the last lanes of the node.
     pub fn parts(&self) -> &[Part] {
         &self.parts[..self.len]
     }
@@ -65,12 +61,12 @@ impl Children {
 struct Chooser<'a> {
     tree: &'a BinaryTree,
     costs: &'a CostModel,
-    /// The half area of the root. Costs relative to it fit an `f32` in any unit of length.
+    /// Costs are divided by the half area of the root. So they fit an `f32` in any unit of length.
     whole: f64,
 }
 
 impl Chooser<'_> {
-    /// Computes `best` for the subtree at `at`: its nodes in depth-first order. `ids` is a scratch buffer.
+    /// `best` contains the nodes of the subtree at `at`, in depth-first order.
     fn choose(&self, at: usize, best: &mut [Best], ids: &mut Vec<u32>) {
         let node = &self.tree.nodes[at];
         let area = node.bounds.half_area() / self.whole;
@@ -98,7 +94,6 @@ impl Chooser<'_> {
     }
 
     fn inner(&self, area: f64, [l, r]: [&Best; 2], ids: &mut Vec<u32>) -> Best {
-        // The cheapest distribution of `parts` parts to the two children.
         let distribute = |parts: usize| {
             let with = |left: usize| (l.cost[left - 1] + r.cost[parts - left - 1], left as u8);
             (1..parts).map(with).min_by(|a, b| a.0.total_cmp(&b.0)).expect("at least two parts")
@@ -122,9 +117,9 @@ impl Chooser<'_> {
         best
     }
 
-    /// The cost of one leaf with all triangles below. Infinite for too many triangles; may be infinite if over `limit`.
+    /// Returns infinity if the leaf has too many triangles. May return infinity if the leaf costs more than `limit`.
     fn merged(&self, area: f64, limit: f32, best: &mut Best, ids: &mut Vec<u32>) -> f32 {
-        let most = (LARGEST * WIDTH) as u32;
+        let most = (MAX_MERGED_BLOCKS * WIDTH) as u32;
         let [first, end] = best.references;
         if end - first > 2 * most || best.triangles > most || self.as_leaf(area, best.triangles) > limit {
             return f32::INFINITY;
@@ -149,18 +144,17 @@ impl<'a> Collapse<'a> {
         if let Some(root) = tree.nodes.first() {
             let whole = Some(root.bounds.half_area()).filter(|&whole| whole > 0.0).unwrap_or(1.0);
             Chooser { tree, costs, whole }.choose(0, &mut best, &mut vec![]);
-            // Even a single leaf gets a node above it, so rays that miss the box of the leaf test no triangle.
+            // Even a single leaf gets a node above it. So rays that miss the box of the leaf test no triangle.
             best[0].leaf = false;
         }
         Self { tree, best }
     }
 
-    /// The part at the root, or `None` if the tree is empty.
     pub fn root(&self) -> Option<Part> {
         (!self.best.is_empty()).then(|| self.part(0))
     }
 
-    /// The references below a part. A triangle may occur several times.
+    /// A triangle may occur several times.
     pub fn references(&self, part: Part) -> &[u32] {
         let (Part::Node(at) | Part::Leaf(at)) = part;
         let [first, end] = self.best[at as usize].references;
@@ -170,11 +164,11 @@ impl<'a> Collapse<'a> {
     pub fn children(&self, at: u32) -> Children {
         let (mut found, mut len) = ([Part::Leaf(0); WIDTH], 0);
         self.gather(at, WIDTH, &mut |part| {
-            // If the binary tree is a single leaf, the only part is the root itself: make it a leaf.
+            // In a tree of one leaf, the root is its own only part. Storing the part as a leaf ends the recursion.
             found[len] = if part == Part::Node(at) { Part::Leaf(at) } else { part };
             len += 1;
         });
-        // Assign the lanes: nodes before leaves, small boxes before large boxes.
+        // Any-hit queries visit the last lanes first: leaves before nodes, and large boxes before small boxes.
         let keys = found.map(|part| (matches!(part, Part::Leaf(_)), self.bounds(part).half_area()));
         let mut places: [usize; WIDTH] = std::array::from_fn(|place| place);
         places[..len].sort_by(|&a, &b| keys[a].0.cmp(&keys[b].0).then(keys[a].1.total_cmp(&keys[b].1)));
@@ -182,7 +176,6 @@ impl<'a> Collapse<'a> {
         let mut lanes = [0; WIDTH];
         (empty as u32..).zip(&places[..len]).for_each(|(lane, &place)| lanes[place] = lane);
 
-        // Empty lanes come last in each order, so `Stack::push` tests the used lanes first.
         let unused = (0..empty as u32).rev().fold(0, |order, lane| order << 3 | lane);
         let orders = self.orders(at, WIDTH, &mut lanes.iter()).0.map(|order| order << (3 * empty) | unused);
         Children { parts: places.map(|place| found[place]), len, orders }
@@ -193,7 +186,7 @@ impl<'a> Collapse<'a> {
     }
 
     /// Both children of `at`, each with its number of parts, at most `parts` in total. `None` if `at` is a single part.
-    pub(super) fn dealt(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
+    pub(super) fn divided(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
         let left = |parts: usize| (parts, self.best[at as usize].left[parts - 1] as usize);
         let (parts, left) = (1..=parts).rev().map(left).find(|&(_, left)| left > 0)?;
         match self.tree.nodes[at as usize].content {
@@ -202,9 +195,8 @@ impl<'a> Collapse<'a> {
         }
     }
 
-    /// Visits the parts of `at` (at most `parts`) in depth-first order.
     fn gather(&self, at: u32, parts: usize, visit: &mut impl FnMut(Part)) {
-        match self.dealt(at, parts) {
+        match self.divided(at, parts) {
             Some(sides) => sides.iter().for_each(|&(at, parts)| self.gather(at, parts, visit)),
             None => visit(self.part(at)),
         }
@@ -223,7 +215,7 @@ mod tests {
     use crate::build::check::soup;
     use crate::build::sbvh::{SbvhConfig, Splits, build};
 
-    /// The collapse counts distinct triangles of a merged leaf only if the leaf may win. This test always counts them.
+    /// The collapse counts distinct triangles of a merged leaf only if the leaf may be cheaper than a node.
     #[test]
     fn leaves_that_are_not_counted_would_not_have_won() {
         let tree = build(&soup(3000, 44), &SbvhConfig::new(Splits::Spatial, Quality::Balanced));

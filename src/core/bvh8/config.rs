@@ -9,23 +9,23 @@ use crate::build::sbvh::{self, SbvhConfig, Splits};
 use crate::geometry::Mesh;
 use crate::triangle::TriangleTest;
 
-/// The build options of a [`Bvh8`](super::Bvh8). By default, the built-in trees differ only in `partition`.
+/// The build options of a [`Bvh8`](super::Bvh8).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bvh8Config {
     /// The partitioning strategy.
     pub partition: Partition,
-    /// Build quality: slower builds give better trees.
+    /// The build quality.
     pub quality: Quality,
-    /// SAH cost of testing eight triangles, relative to visiting a node. Positive; a higher cost gives smaller leaves.
+    /// SAH cost of testing eight triangles, relative to the cost of visiting a node. Must be positive and finite.
     pub block_cost: f32,
-    /// Maximum number of references, per triangle on average. At least 1; [`Quality::Fast`] uses at most 1.75.
+    /// Maximum mean number of references per triangle. Must be at least 1. [`Quality::Fast`] uses at most 1.75.
     pub duplication: f32,
     /// How a slice of rays is traced. Must be [`Batch::Single`] if the test is not [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
 
-/// Partitioning strategies. All use the surface area heuristic.
+/// A partitioning strategy by the surface area heuristic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Partition {
@@ -39,19 +39,19 @@ pub enum Partition {
     Objects,
 }
 
-/// How a slice of rays is traced; the hits are always the same.
+/// How a slice of rays is traced. All variants find the same hits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Batch {
     /// One ray after the other.
     Single,
-    /// Sixteen consecutive rays whose directions lie in the same octant form a packet. Other rays are traced one after
-    /// the other or, in closest-hit queries on trees of more than 2 MiB, interleaved, eight at a time.
+    /// Sixteen consecutive rays with directions in one octant may form a packet. On trees of more than 2 MiB,
+    /// closest-hit queries may interleave the rays that form no packet, up to eight at a time.
     Packets,
 }
 
 impl Bvh8Config {
-    /// The tuned values for a partition.
+    /// The default options for a partition.
     pub const fn new(partition: Partition) -> Self {
         Self { partition, quality: Quality::Balanced, block_cost: 1.0, duplication: 2.4, batch: Batch::Single }
     }
@@ -67,7 +67,7 @@ impl Bvh8Config {
     }
 
     pub(super) fn partition(&self, mesh: &Mesh) -> BinaryTree {
-        // Trees without object splits have twice as many nodes and gain less from reinsertion.
+        // Trees without object splits gain less from reinsertion.
         let passes = match (self.quality, self.partition) {
             (Quality::Fast, Partition::Objects) => 2,
             (Quality::Fast, _) => 0,
@@ -75,7 +75,7 @@ impl Bvh8Config {
             (Quality::Balanced, _) => 3,
             (Quality::High, _) => 8,
         };
-        // If planes cut triangles, most of the build time is spent on references. A fast build creates fewer.
+        // A fast build creates fewer references, because most of its time is spent on references.
         let duplication = if self.quality == Quality::Fast { self.duplication.min(1.75) } else { self.duplication };
         let boxes = |splits| sbvh::build(mesh, &SbvhConfig { duplication, ..SbvhConfig::new(splits, self.quality) });
         let tree = match self.partition {

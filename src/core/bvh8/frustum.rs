@@ -7,10 +7,11 @@ use crate::simd::{Lanes, each};
 
 /// Bounds of the parameters at which the rays of a packet cross the planes of boxes.
 ///
-/// **It rejects only boxes that every ray rejects.** A ray with origin o and inverse direction i computes its crossing
-/// of a near plane p as fl(fl(p - o) i). Rounding is monotonic. Let o' and i' be ends of the ranges of o and i: the
-/// least fl(fl(p - o') i') is a lower bound of the crossings. The sign of the direction determines o'. The far
-/// crossings have a similar upper bound. If the lower bound exceeds the upper bound, every ray misses the box.
+/// **A box is rejected only if every ray misses it.** A ray with origin o and inverse direction i computes its crossing
+/// of a near plane p as fl(fl(p - o) i). Rounding is monotonic, so the crossing is monotonic in o and in i. So the
+/// least crossing is at ends of the ranges of o and i. The sign of the direction determines the end of the range of o.
+/// The least crossing is a lower bound for all rays. The far crossings have a similar upper bound. If the lower bound
+/// exceeds the upper bound, every ray misses the box.
 pub(super) struct Frustum<L> {
     near_origin: [L; 3],
     far_origin: [L; 3],
@@ -22,7 +23,6 @@ pub(super) struct Frustum<L> {
     far: [usize; 3],
 }
 
-/// The least and the greatest number of a row, each in all lanes.
 #[inline(always)]
 fn range<L: Lanes<WIDTH>>(row: &[L; 2]) -> [L; 2] {
     let (low, high) = (row[0].min(row[1]).store(), row[0].max(row[1]).store());
@@ -51,7 +51,6 @@ impl<L: Lanes<WIDTH>> Frustum<L> {
         }
     }
 
-    /// The boxes that at least one ray may meet, as bits.
     #[inline(always)]
     pub fn meet(&self, node: &Node) -> u32 {
         let planes = node.planes.as_flattened();

@@ -1,4 +1,4 @@
-//! Writes nodes and leaf blocks: first the top of the tree, then each subtree below the top, depth first.
+//! Writes the nodes and leaf blocks of a tree.
 
 use rayon::prelude::*;
 
@@ -20,8 +20,7 @@ pub(super) struct Layout<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Layout<T> {
-    /// Writes the tree of `collapse` in parallel, by subtrees of at most `most` references. The tree does not depend on
-    /// `most`.
+    /// The tree does not depend on `most`.
     pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
         let Some(root) = collapse.root() else {
             return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });
@@ -29,7 +28,7 @@ impl<T: TriangleTest> Layout<T> {
         let cut = if collapse.references(root).len() > most { most } else { 0 };
         let mut top = Piece::new(mesh, collapse, cut);
         let root = top.write(root, 0);
-        let below = |cut: &Cut| {
+        let below = |cut: &DeferredSubtree| {
             let mut piece = Piece::new(mesh, collapse, 0);
             piece.write(cut.part, cut.depth);
             piece
@@ -38,7 +37,6 @@ impl<T: TriangleTest> Layout<T> {
         Self::joined(root, top, pieces, limits)
     }
 
-    /// Appends the pieces to `top` and links them to their parents, which `top.cuts` lists.
     fn joined(root: Child, mut top: Piece<T>, pieces: Vec<Piece<T>>, limits: &Limits) -> Result<Self, BuildError> {
         let whole = || pieces.iter().chain([&top]);
         let nodes = whole().map(|piece| piece.nodes.len()).sum();
@@ -73,7 +71,6 @@ impl<T: TriangleTest> Layout<T> {
     }
 }
 
-/// A part of the tree that one thread writes.
 struct Piece<'a, T: TriangleTest> {
     mesh: &'a Mesh,
     collapse: &'a Collapse<'a>,
@@ -83,11 +80,11 @@ struct Piece<'a, T: TriangleTest> {
     depth: usize,
     /// Subtrees with at most this many references are left to other threads.
     cut: usize,
-    cuts: Vec<Cut>,
+    cuts: Vec<DeferredSubtree>,
 }
 
-/// A subtree that is left to another thread, the lane of its parent node, and the number of nodes above it (`depth`).
-struct Cut {
+/// A subtree that another thread writes, with `depth` nodes above it.
+struct DeferredSubtree {
     part: Part,
     parent: usize,
     lane: usize,
@@ -99,7 +96,6 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
         Self { mesh, collapse, nodes: vec![], blocks: vec![], depth: 0, cut, cuts: vec![] }
     }
 
-    /// Writes `part`, which has `depth` nodes above it.
     fn write(&mut self, part: Part, depth: usize) -> Child {
         match part {
             Part::Leaf(_) => self.leaf(part),
@@ -111,10 +107,9 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
                 let mut node = Node { orders: children.orders, ..Node::EMPTY };
                 let parts = children.parts();
                 for (lane, &part) in (WIDTH - parts.len()..).zip(parts) {
-                    // Leave small subtrees to other threads.
                     let is_left = matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.cut;
                     let child = if is_left {
-                        self.cuts.push(Cut { part, parent: own, lane, depth: depth + 1 });
+                        self.cuts.push(DeferredSubtree { part, parent: own, lane, depth: depth + 1 });
                         Child::NOTHING
                     } else {
                         self.write(part, depth + 1)
@@ -149,7 +144,6 @@ mod tests {
 
     type Tree = Layout<MollerTrumbore>;
 
-    /// The content of the subtree at a child, depth first: boxes, orders and triangles.
     fn seen(tree: &Tree, child: Child, into: &mut Vec<String>) {
         match child.blocks() {
             Some((first, count)) => {

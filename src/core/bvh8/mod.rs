@@ -1,4 +1,4 @@
-//! Eight-wide trees of tight boxes: one node layout, four partitioning strategies, traversals of one or several rays.
+//! Eight-wide trees of tight boxes, with four partitioning strategies.
 
 mod accel;
 mod batch;

@@ -12,21 +12,19 @@ pub(super) const WIDTH: usize = 8;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// Maximum number of nodes on a path.
     pub levels: usize,
     pub nodes: usize,
     pub blocks: usize,
-    /// Maximum number of nodes, and of references, in the binary tree from which the wide tree is made.
+    /// Maximum number of nodes, and of references, in the binary tree before the collapse.
     pub binary: usize,
 }
 
 impl Limits {
-    /// The limits that [`Child`] and the traversals impose.
     pub const OF_NODES: Self =
         Self { levels: DEPTH, nodes: Child::LARGEST, blocks: Child::LARGEST, binary: u32::MAX as usize };
 
-    /// Checks before the build that the binary tree cannot have too many nodes. The tree has on average at most
-    /// `duplication` references per triangle, and fewer than two nodes per reference.
+    /// The binary tree has at most `duplication` references per triangle on average. It has fewer than two nodes per
+    /// reference.
     pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
         let most = 2.0 * f64::from(duplication) * triangles as f64;
         if most <= self.binary as f64 {
@@ -39,7 +37,6 @@ impl Limits {
         )))
     }
 
-    /// Checks the size of a tree.
     pub fn check(&self, levels: usize, nodes: usize, blocks: usize) -> Result<(), BuildError> {
         if levels <= self.levels && nodes <= self.nodes && blocks <= self.blocks {
             return Ok(());
@@ -52,21 +49,23 @@ impl Limits {
     }
 }
 
-/// Eight boxes, in structure-of-arrays layout, and their children: 256 bytes, four cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// `planes[axis][side][lane]`: the lower (0) and the upper (1) planes of the boxes.
     pub planes: [[[f32; WIDTH]; 2]; 3],
     pub children: [Child; WIDTH],
-    /// For each octant of directions (bit 0 is set for a negative x), the order in which its rays visit the lanes:
-    /// three bits per lane, the last lane in the lowest bits. Unused lanes have the lowest numbers and come last.
+    /// For each octant of directions, the order in which rays visit the lanes. Bits 0, 1 and 2 of an octant are set for
+    /// a negative x, y and z.
+    ///
+    /// An order has three bits per lane. The lowest bits are the lane that is visited last. Unused lanes are visited
+    /// last.
     pub orders: [u32; 8],
 }
 
 const _: () = assert!(size_of::<Node>() == 256);
 
-/// A child of a node: the index of a node, or the first block and the number of blocks of a leaf.
+/// A node by its index, or a leaf by its first block and its number of blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
 pub(super) struct Child(u32);
@@ -74,7 +73,6 @@ pub(super) struct Child(u32);
 impl Child {
     const LEAF: u32 = 1 << 31;
     const COUNT_BITS: u32 = 4;
-    /// Maximum number of blocks of a leaf.
     pub const BLOCKS: usize = (1 << Self::COUNT_BITS) - 1;
     /// Maximum number of nodes, and of blocks, in a tree.
     pub const LARGEST: usize = 1 << (31 - Self::COUNT_BITS);
@@ -100,13 +98,13 @@ impl Child {
         self.0 & Self::LEAF != 0
     }
 
-    /// The first block of a leaf and the number of its blocks; `None` for a node.
+    /// The first block of a leaf and the number of its blocks.
     #[inline(always)]
     pub fn blocks(self) -> Option<(usize, usize)> {
         self.is_leaf().then_some(self.leaf_blocks())
     }
 
-    /// The first block of a known leaf and the number of its blocks.
+    /// Meaningful only if this child is a leaf.
     #[inline(always)]
     pub fn leaf_blocks(self) -> (usize, usize) {
         let first = (self.0 & !Self::LEAF) >> Self::COUNT_BITS;
@@ -122,7 +120,6 @@ impl Child {
         }
     }
 
-    /// The bits of eight children.
     #[inline(always)]
     pub fn bits(children: &[Self; WIDTH]) -> &[u32; WIDTH] {
         // SAFETY: `Child` is a transparent `u32`, so an array of `Child` has the layout of an array of `u32`.
@@ -136,7 +133,7 @@ impl Child {
 }
 
 impl Node {
-    /// A node without children. Only rays with three NaN inverses meet its boxes; these rays find empty leaves.
+    /// Only rays with three NaN inverses meet the boxes of this node. These rays find empty leaves.
     pub const EMPTY: Self = Self {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         children: [Child::NOTHING; WIDTH],
@@ -151,12 +148,10 @@ impl Node {
         self.children[lane] = child;
     }
 
-    /// This node after its subtree has been appended to `nodes` nodes and `blocks` blocks.
     pub fn moved(self, nodes: usize, blocks: usize) -> Self {
         Self { children: self.children.map(|child| child.moved(nodes, blocks)), ..self }
     }
 
-    /// The boxes in used lanes, and their children.
     pub fn boxes(&self) -> impl Iterator<Item = (Aabb, Child)> + '_ {
         let corner =
             |side: usize, lane: usize| Vec3::from_array(std::array::from_fn(|axis| self.planes[axis][side][lane]));
@@ -175,7 +170,6 @@ mod tests {
         assert_eq!(Child::node(nodes - 1).index(), nodes - 1);
         assert!(!Child::node(nodes - 1).is_leaf());
         assert_eq!(Child::leaf(blocks - 1, Child::BLOCKS).blocks(), Some((blocks - 1, Child::BLOCKS)));
-        // The next number would overflow into the leaf bit.
         assert_eq!((blocks as u32) << Child::COUNT_BITS, Child::LEAF);
     }
 }

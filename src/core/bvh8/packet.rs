@@ -1,13 +1,8 @@
-//! A packet of sixteen rays.
+//! Traces sixteen rays as a packet.
 //!
-//! **The same hits as one ray at a time.** The rays of a packet share an octant, so a packet visits children in the
-//! order of one ray. A ray participates in a visit if and only if it meets the box before its nearest hit so far, or
-//! before the end of its interval. The test of the packet rejects only boxes that each ray rejects (see [`Frustum`]).
-//! So every ray visits all leaves that a single ray visits, in the same order, and perhaps some leaves behind its hit.
-//!
-//! A leaf that many rays visit is searched triangle by triangle, with eight rays at once. Other leaves are searched ray
-//! by ray. If the test of eight rays cannot decide whether a ray meets a triangle, or which of two hits is nearer, the
-//! ray searches the leaf again as a single ray. The nearest hit does not depend on the order in which hits are found.
+//! **A packet finds the same hits as single rays.** The rays of a packet share an octant, so one visiting order serves
+//! all rays. [`Frustum`] rejects only boxes that every ray misses. So each ray visits at least the leaves that a single
+//! ray visits. The nearest hit does not depend on the order in which hits are found.
 
 use std::mem::MaybeUninit;
 
@@ -22,13 +17,13 @@ use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Level};
 use crate::triangle::TriangleTest;
 
-/// If at most this many rays of a packet visit a node, its subtree is searched one ray at a time.
-const FEW: u32 = 3;
+/// Maximum number of rays that search a subtree one by one instead of as a packet.
+const MAX_RAYS_ONE_BY_ONE: u32 = 3;
 
 /// The lanes in ascending order, three bits per lane, lane 0 lowest.
 const IN_LANES: u32 = 0o76543210;
 
-/// A child to visit, the `lane` of its box in the node `parent`, and the rays that may visit the child, as bits.
+/// The box of `child` is in `lane` of the node `parent`. The bits of `rays` are the rays that may visit `child`.
 #[derive(Clone, Copy)]
 struct Entry {
     child: Child,
@@ -38,14 +33,14 @@ struct Entry {
 }
 
 impl<T: TriangleTest> Bvh8<T> {
-    /// Traces sixteen rays as a packet. Returns false if they cannot form one.
+    /// Returns false if the rays cannot form a packet.
     #[inline(always)]
     pub(super) fn intersect_packet<'a, const ANY: bool, L: EightLanes, A>(
         &'a self,
         level: Level,
         rays: &'a [Ray; RAYS],
         answers: &mut [A; RAYS],
-        form: &impl Fn(Option<Hit>) -> A,
+        convert: &impl Fn(Option<Hit>) -> A,
     ) -> bool {
         let Some(mut packet) = RayPacket::<L>::new(rays, &self.bounds) else { return false };
         let frustum = Frustum::new(&packet);
@@ -58,11 +53,12 @@ impl<T: TriangleTest> Bvh8<T> {
                 // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
                 state.search::<ANY, L>(first, blocks, active, &mut packet);
-            } else if active.count_ones() <= FEW {
+            } else if active.count_ones() <= MAX_RAYS_ONE_BY_ONE {
                 self.one_by_one::<ANY, L>(child, active, &mut packet, &mut state);
             } else {
-                // SAFETY: a child that is not a leaf names one of `nodes`, and a path has at most `DEPTH` nodes
-                // (invariants of `Bvh8`). Each node above has left at most seven entries, so eight more fit in `SIZE`.
+                // SAFETY: a child that is not a leaf names one of `nodes` (invariants of `Bvh8`). A path has at most
+                // `DEPTH` nodes (invariants of `Bvh8`). Each node above has left at most seven entries, so eight more
+                // fit in `SIZE`.
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     let met = frustum.meet(node);
@@ -82,7 +78,7 @@ impl<T: TriangleTest> Bvh8<T> {
             }
             loop {
                 if len == 0 || state.unfinished == 0 {
-                    state.answer::<ANY, L>(level, &packet, |i, hit| answers[i] = form(hit));
+                    state.answer::<ANY, L>(level, &packet, |i, hit| answers[i] = convert(hit));
                     return true;
                 }
                 len -= 1;
@@ -103,7 +99,6 @@ impl<T: TriangleTest> Bvh8<T> {
         }
     }
 
-    /// Searches the subtree at `child` for the rays `active` (as bits), one after the other.
     #[inline(always)]
     fn one_by_one<'a, const ANY: bool, L: EightLanes>(
         &'a self,

@@ -6,24 +6,22 @@ use crate::triangle::{Depth, EightHits, TriangleTest};
 pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 
-/// The data of a [`Nearest`] for each of sixteen rays: its nearest hit so far or, without a hit, the interval's end.
+/// A [`Nearest`] for each of sixteen rays, in structure-of-arrays layout.
 pub(super) struct PacketHits<'a, T: TriangleTest> {
-    /// The blocks of the tree.
     blocks: &'a [LeafBlock<T>],
     t: [[f32; WIDTH]; HALVES],
     /// Lower bounds of the `t` of the hits; infinite without a hit.
     least: [[f32; WIDTH]; HALVES],
     /// The numbers of the hit triangles; [`NONE`] without a hit.
     ids: [[u32; WIDTH]; HALVES],
-    /// The positions of the hit triangles, 8 x block + lane; unused for the rays in `alone`.
+    /// The positions of the hit triangles, 8 x block + lane; unused for the rays in `found_by_single_search`.
     places: [[u32; WIDTH]; HALVES],
-    /// The depths of the hits of the rays in `alone`.
+    /// The depths of the hits of the rays in `found_by_single_search`.
     depths: [Option<T::Depth<'a>>; RAYS],
     /// The rays whose nearest hit was found by a search of a single ray, as bits.
-    alone: u16,
+    found_by_single_search: u16,
 }
 
-/// The nearest hits of one half of the rays, in lanes.
 #[derive(Clone, Copy)]
 pub(super) struct HitLanes<L: EightLanes> {
     pub t: L,
@@ -35,8 +33,8 @@ pub(super) struct HitLanes<L: EightLanes> {
 }
 
 impl<L: EightLanes> HitLanes<L> {
-    /// Keeps the hits of triangle `id`, stored at `place`, in `active` lanes where they are nearer. Returns undecided
-    /// lanes as bits.
+    /// Keeps the hits of triangle `id` in `active` lanes, if they are nearer. Returns, as bits, the active
+    /// lanes in which the bounds do not decide whether the triangle is hit nearer.
     #[inline(always)]
     pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightHits<L>, id: u32, place: u32) -> u32 {
         let id = L::splat_number(id);
@@ -64,7 +62,7 @@ impl<L: EightLanes> HitLanes<L> {
 }
 
 impl<'a, T: TriangleTest> PacketHits<'a, T> {
-    /// No hits yet; hits of ray `i` must lie at or before `last(i)`.
+    /// A hit of ray `i` must have a `t` of at most `last(i)`.
     #[inline(always)]
     pub fn until(blocks: &'a [LeafBlock<T>], last: impl Fn(usize) -> f32) -> Self {
         let mut hits = Self {
@@ -74,7 +72,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
             ids: [[NONE; WIDTH]; HALVES],
             places: [[0; WIDTH]; HALVES],
             depths: [const { None }; RAYS],
-            alone: 0,
+            found_by_single_search: 0,
         };
         for i in 0..RAYS {
             hits.t[i / WIDTH][i % WIDTH] = last(i);
@@ -82,7 +80,6 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         hits
     }
 
-    /// Hits of ray `i` must lie at or before this `t`.
     #[inline(always)]
     pub fn t(&self, i: usize) -> f32 {
         self.t[i / WIDTH][i % WIDTH]
@@ -94,14 +91,14 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         Nearest { t, hit: (id != NONE).then(|| (self.depth(i), id)) }
     }
 
-    /// The depth of the hit of ray `i`. The ray must have a hit.
+    /// The ray must have a hit.
     #[inline(always)]
     pub fn depth(&self, i: usize) -> T::Depth<'a> {
         let (half, lane) = (i / WIDTH, i % WIDTH);
         if let Some(depth) = T::Depth::of(self.t[half][lane]) {
             return depth;
         }
-        if self.alone >> i & 1 == 1 {
+        if self.found_by_single_search >> i & 1 == 1 {
             return self.depths[i].expect("a hit has a depth");
         }
         let place = self.places[half][lane] as usize;
@@ -115,7 +112,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
             let (half, lane) = (i / WIDTH, i % WIDTH);
             (self.t[half][lane], self.least[half][lane], self.ids[half][lane]) = (nearest.t, depth.least(), id);
             self.depths[i] = Some(depth);
-            self.alone |= 1 << i;
+            self.found_by_single_search |= 1 << i;
         }
     }
 
@@ -128,20 +125,19 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         }
     }
 
-    /// Like [`offer`](Self::offer), for a depth with bounds. Returns false if the bounds leave the order undecided.
+    /// Like [`offer`](Self::offer), for a depth with bounds. Returns false if the bounds do not decide the order.
     #[inline(always)]
     pub fn offer_between(&mut self, i: usize, depth: &T::Depth<'_>, id: u32, place: u32) -> bool {
         let (half, lane) = (i / WIDTH, i % WIDTH);
         if depth.bound() < self.least[half][lane] {
             (self.t[half][lane], self.least[half][lane]) = (depth.bound(), depth.least());
             (self.ids[half][lane], self.places[half][lane]) = (id, place);
-            self.alone &= !(1 << i);
+            self.found_by_single_search &= !(1 << i);
             return true;
         }
         self.t[half][lane] < depth.least()
     }
 
-    /// The triangle that ray `i` hits, or [`NONE`].
     #[inline(always)]
     pub fn id(&self, i: usize) -> u32 {
         self.ids[i / WIDTH][i % WIDTH]
@@ -152,7 +148,6 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         self.ids[i / WIDTH][i % WIDTH] != NONE
     }
 
-    /// The rays that have a hit, as bits.
     #[inline(always)]
     pub fn found(&self) -> u16 {
         self.ids.as_flattened().iter().enumerate().fold(0, |found, (i, &id)| found | u16::from(id != NONE) << i)
@@ -177,7 +172,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         if !T::ONE_STAGE {
             self.least = each(lanes, |half| half.least.store());
             self.places = each(lanes, |half| L::store_numbers(half.places));
-            self.alone &= !((L::bits(lanes[0].fresh) | L::bits(lanes[1].fresh) << WIDTH) as u16);
+            self.found_by_single_search &= !((L::bits(lanes[0].fresh) | L::bits(lanes[1].fresh) << WIDTH) as u16);
         }
     }
 }

@@ -10,19 +10,17 @@ use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
 use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest, last_bits};
 
-/// If fewer rays are active, a leaf is searched ray by ray: most of these rays hit no triangle, and this search detects
-/// misses sooner. If at least this many rays are active, both halves of the packet have active rays.
-const MANY: u32 = 12;
+/// A leaf is searched ray by ray if fewer rays are active, because this search detects misses sooner.
+const MIN_RAYS_BY_TRIANGLE: u32 = 12;
 
 pub(super) struct PacketState<'a, T: TriangleTest> {
     rays: &'a [Ray; RAYS],
-    /// The rays in the format of the triangle test. A ray is prepared at its first leaf, because many visit no leaf.
+    /// A ray is prepared at its first leaf, because many rays visit no leaf.
     prepared: [MaybeUninit<T::Ray>; RAYS],
     ready: u16,
     nearest: PacketHits<'a, T>,
     t_min: [f32; RAYS],
     candidates: [MaybeUninit<BlockCandidates<T>>; RAYS],
-    /// The rays whose search is not finished, as bits.
     pub unfinished: u16,
 }
 
@@ -30,7 +28,7 @@ pub(super) struct PacketState<'a, T: TriangleTest> {
 type BlockCandidates<T> = (u32, <T as TriangleTest>::Values<WIDTH>);
 
 impl<'a, T: TriangleTest> PacketState<'a, T> {
-    /// The state before the first leaf. Also sets the ends of the rays in `packet`.
+    /// Sets the ends of the rays in `packet`.
     #[inline(always)]
     pub fn new<L: EightLanes>(rays: &'a [Ray; RAYS], blocks: &'a [LeafBlock<T>], packet: &mut RayPacket<L>) -> Self {
         let nearest = PacketHits::until(blocks, |i| T::last(rays[i].t_max));
@@ -46,7 +44,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Passes the hit of each ray to `answer`.
     #[allow(clippy::needless_range_loop)] // `lane` is an index into several arrays
     #[inline(always)]
     pub fn answer<const ANY: bool, L: EightLanes>(
@@ -82,7 +79,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Ray `i` in the format of the test and its nearest hit so far, for a search of this ray only.
     #[inline(always)]
     pub fn single(&mut self, i: usize) -> (&T::Ray, Nearest<T::Depth<'a>>) {
         self.prepare(1 << i);
@@ -90,7 +86,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         (unsafe { self.prepared(i) }, self.nearest.get(i))
     }
 
-    /// Stores the nearest hit of ray `i`, found by a search of this ray only.
     #[inline(always)]
     pub fn put_back<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -102,7 +97,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         self.update::<ANY, L>(i, packet);
     }
 
-    /// Searches the blocks of a leaf for the rays `active`, as bits.
     #[inline(always)]
     pub fn search<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -111,10 +105,12 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         active: u16,
         packet: &mut RayPacket<L>,
     ) {
-        // Choose the search with fewer steps: one per triangle and half of the rays, or one per ray and block.
+        // Choose the search with fewer steps. `triangle_by_triangle` takes `HALVES` steps per triangle.
+        // `ray_by_ray` takes one step per ray and block.
         let rays = active.count_ones();
         let triangles = || blocks.iter().map(LeafBlock::len).sum::<u32>();
-        let pays = T::EIGHT && rays >= MANY && triangles() * HALVES as u32 <= rays * blocks.len() as u32;
+        let pays =
+            T::EIGHT && rays >= MIN_RAYS_BY_TRIANGLE && triangles() * HALVES as u32 <= rays * blocks.len() as u32;
         let mut left = active;
         if pays {
             left = self.triangle_by_triangle(first, blocks, active, packet);
@@ -128,8 +124,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Searches triangle by triangle, with half of the rays at once. A triangle that all these rays miss is skipped; no
-    /// other branch depends on the hits. Returns, as bits, the rays that must search the leaf again as single rays.
+    /// Returns, as bits, the rays that must search the leaf again one by one.
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
@@ -161,8 +156,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         left as u16
     }
 
-    /// Searches ray by ray, with the triangles of a block at once. In each block, all rays run the first stage before
-    /// any ray runs the second stage. With `ANY`, a ray with a hit stops.
     #[inline(always)]
     fn ray_by_ray<const ANY: bool, L: EightLanes>(
         &mut self,
@@ -208,8 +201,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Decides the candidates of ray `i`.
-    ///
     /// # Safety
     /// [`prepare`](Self::prepare) has prepared the ray.
     #[inline(always)]
@@ -221,7 +212,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         (mut candidates, values): BlockCandidates<T>,
     ) {
         if T::ONE_STAGE {
-            // All candidates are hits, so this loop needs no call of `leaf::settle`.
+            // All candidates of a one-stage test are hits, so this loop needs no call of `leaf::settle`.
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 candidates &= candidates - 1;
@@ -253,8 +244,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Ray `i` in the format of the triangle test.
-    ///
     /// # Safety
     /// [`prepare`](Self::prepare) has prepared the ray.
     #[inline(always)]
@@ -264,7 +253,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         unsafe { self.prepared[i].assume_init_ref() }
     }
 
-    /// Prepares the rays `which`, as bits.
     #[inline(always)]
     fn prepare(&mut self, which: u16) {
         let mut missing = which & !self.ready;
@@ -276,7 +264,6 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Moves the end of ray `i` to its nearest hit. With `ANY`, a hit finishes the ray.
     #[inline(always)]
     fn update<const ANY: bool, L: EightLanes>(&mut self, i: usize, packet: &mut RayPacket<L>) {
         if ANY && self.nearest.has_found(i) {

@@ -8,10 +8,8 @@ use crate::simd::{EightLanes, LaneVec3, each};
 use crate::traversal::line::{after, lanes_after};
 use crate::triangle::{DIRECTION, EightRays, INPUTS, ORIGIN};
 
-/// One number per ray.
 type Row = [[f32; WIDTH]; HALVES];
 
-/// The rays of a packet: for each ray, the numbers of a [`PreparedRay`].
 pub(super) struct RayPacket<L> {
     pub origin: [[L; HALVES]; 3],
     direction: [[L; HALVES]; 3],
@@ -26,7 +24,7 @@ pub(super) struct RayPacket<L> {
     pub octant: usize,
 }
 
-/// Transposes eight rays of eight numbers: row `i` has number `i` of all rays. Unlike a closure, it is always inlined.
+/// Transposes eight rays: row `i` has number `i` of all rays.
 #[inline(always)]
 fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     let mut rows = [L::zero(); WIDTH];
@@ -37,7 +35,6 @@ fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     L::transpose(rows)
 }
 
-/// The greatest number in any lane.
 #[inline(always)]
 fn greatest<L: EightLanes>(lanes: L) -> f32 {
     let lanes = lanes.store();
@@ -45,8 +42,8 @@ fn greatest<L: EightLanes>(lanes: L) -> f32 {
 }
 
 impl<L: EightLanes> RayPacket<L> {
-    /// Prepares the rays. `None` if a ray is invalid, if octants differ, if an inverse is not a normal float or
-    /// overflows when enlarged, or if a difference to a plane in `bounds` may overflow. The caller sets the ends.
+    /// Returns `None` if a ray is invalid or if octants differ. All inverses must be normal floats. Enlarged inverses
+    /// and differences to planes in `bounds` must be finite. The caller must set the ends of the rays.
     #[inline(always)]
     pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
         let (low, high) = rays.split_at(WIDTH);
@@ -67,7 +64,7 @@ impl<L: EightLanes> RayPacket<L> {
         let enlarged = each(&inverse, |halves| each(halves, |i| i.mul(L::splat(ENLARGED))));
         let (t_min, t_max) = (each(&row(3), |t| t.max(L::zero())), row(7));
 
-        // Check the conditions of `Ray::is_valid` and `inverses`. All inverses must stay finite when enlarged.
+        // These are the conditions of `Ray::is_valid` and `inverses`.
         let abs = |x: L| x.flip_sign(x);
         let mut good = u32::MAX;
         for half in 0..HALVES {
@@ -91,7 +88,6 @@ impl<L: EightLanes> RayPacket<L> {
         Some(Self { origin, direction, inverse, enlarged, t_min, t_max, longest, farthest, ends, octant })
     }
 
-    /// The rays that enter the box in `lane` of `node` at or before their ends, as bits.
     #[inline(always)]
     pub fn meet(&self, node: &Node, lane: usize) -> u16 {
         let mut met = 0;
@@ -124,19 +120,17 @@ impl<L: EightLanes> RayPacket<L> {
         row
     }
 
-    /// Sets the end of ray `i` to [`after`] of `t`.
     #[inline(always)]
     pub fn end(&mut self, i: usize, t: f32) {
         self.ends[i / WIDTH][i % WIDTH] = after(t);
     }
 
-    /// Sets the ends of all rays to [`after`] of `t`.
     #[inline(always)]
     pub fn end_all(&mut self, t: [L; HALVES]) {
         self.ends = each(&t, |t| lanes_after(*t).store());
     }
 
-    /// The origins and directions of half of the rays as columns of `Depth::inputs`; all other columns are zero.
+    /// Only the columns of origins and directions are filled.
     #[inline(always)]
     pub fn inputs(&self, half: usize) -> [[f32; WIDTH]; INPUTS] {
         let mut inputs = [[0.0; WIDTH]; INPUTS];

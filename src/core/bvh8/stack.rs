@@ -5,37 +5,34 @@ use std::mem::MaybeUninit;
 use super::node::{Child, DEPTH, Node, WIDTH};
 use crate::simd::EightLanes;
 
-/// Maximum number of entries: each node of a path leaves at most seven, and eight are written at once.
+/// Each node of a path leaves at most seven entries, and eight are written at once.
 pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
-/// `SIZE` suffices for the bottom, eight entries of the last node of a path, and seven entries of each node above it.
 const _: () = assert!(1 + (DEPTH - 1) * (WIDTH - 1) + WIDTH <= SIZE);
 
-/// Children to visit, the next one on top, and the parameters at which the ray enters them. Uninitialised for speed.
+/// Children to visit, the next one on top, and the parameters at which the ray enters them.
 ///
-/// The address matters: eight entries are written at once, and a store across the border of two pages is slow. If the
-/// first few dozen entries cross a border, a traversal takes 1.25 to 1.4 times as long (Xeon). So [`OnePage`] keeps
-/// these entries of a single ray in one page. Several simultaneous stacks should begin at different offsets in their
-/// pages, because addresses at the same offset compete for the few ways of one set of the first-level cache.
+/// Eight entries are written at once, and a store across the border of two pages is slow. [`OnePage`] keeps the first
+/// entries of a single ray in one page. Simultaneous stacks should begin at different offsets in their pages, to use
+/// different sets of the cache.
 #[repr(C)]
 pub(super) struct Entries {
     children: [MaybeUninit<Child>; SIZE],
     enters: [MaybeUninit<f32>; SIZE],
 }
 
-/// The first `len` of `entries`, for one query. `len` is separate from the entries, so it stays in a register.
 pub(super) struct Stack<'a, const ANY: bool> {
     entries: &'a mut Entries,
     len: usize,
 }
 
-/// A value that begins a quarter of a page after the start of a page. Spilled registers lie at the start of a page. A
-/// load waits for an earlier store to the same offset of another page (4K aliasing), so the offsets must differ.
+/// A value that begins a quarter of a page after the start of a page. The offset avoids 4K aliasing with spilled
+/// registers, which lie at the start of a page.
 #[repr(C, align(4096))]
 pub(super) struct OnePage<T>(pub [MaybeUninit<u8>; BEFORE], pub T);
 
 const BEFORE: usize = 1024;
 
-/// The page holds more entries of the second array, `enters`, than most traversals use.
+/// The page contains the first entries of `enters`, more than most traversals use.
 const _: () = assert!((4096 - BEFORE) / size_of::<Child>() - SIZE > 50);
 
 impl<T> OnePage<T> {
@@ -51,8 +48,6 @@ impl Entries {
         Self { children: [const { MaybeUninit::uninit() }; SIZE], enters: [const { MaybeUninit::uninit() }; SIZE] }
     }
 
-    /// Writes [`BOTTOM`](Child::BOTTOM) as the first entry.
-    ///
     /// # Safety
     /// `entries` is valid for writes.
     #[inline(always)]
@@ -67,8 +62,11 @@ impl Entries {
 
 impl<'a, const ANY: bool> Stack<'a, ANY> {
     /// # Safety
-    /// `len` is 0; or 1 after [`reset`](Entries::reset); or the length of an earlier stack of the same `ANY` over these
-    /// entries, if nothing else has written to them since.
+    /// `len` is one of:
+    /// - 0;
+    /// - 1, after [`reset`](Entries::reset);
+    /// - the length of the last stack of the same `ANY` over these entries, if no other code has written to the entries
+    ///   since.
     #[inline(always)]
     pub unsafe fn of(entries: &'a mut Entries, len: usize) -> Self {
         Self { entries, len }
@@ -79,11 +77,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         self.len
     }
 
-    /// Pushes the children whose boxes the ray meets, except the first child, which is returned. The node stores a
-    /// visiting order per octant. With `ANY`, the order runs from the highest lane to the lowest.
-    ///
-    /// The first child is found by one branch per position in the order. Unlike a table look-up, a branch is predicted,
-    /// so the processor continues in the next node while it is still testing the boxes of this node.
+    /// Pushes the children whose boxes the ray meets, except the first in visiting order. Returns the first child. With
+    /// `ANY`, higher lanes come first.
     ///
     /// # Safety
     /// Each node of the path is pushed once, and the path has at most [`DEPTH`] nodes.
@@ -91,8 +86,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     pub unsafe fn push<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) -> Option<Child> {
         let children = Child::bits(&node.children);
         let order = node.orders[octant & 7];
-        // SAFETY: by the contract of this function, the stack has at most one entry of `reset` and seven entries of
-        // each of `DEPTH` - 1 nodes. By the assertion at `SIZE`, eight more fit. A child is a transparent `u32`.
+        // SAFETY: by the contract of this function, at most `DEPTH` - 1 nodes have left seven entries each. `reset` has
+        // left at most one entry. By the assertion at `SIZE`, eight more fit. A child is a transparent `u32`.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
@@ -110,17 +105,16 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         for place in (0..WIDTH).rev() {
             if met >> place != 0 {
                 self.len += met.count_ones() as usize - 1;
-                // Keeps the compiler from turning the branches into a look-up.
+                // Keeps the compiler from replacing the branches by a look-up, which is not predicted.
                 std::hint::black_box(());
                 let lane = if ANY { place } else { (order >> (3 * place) & 7) as usize };
-                // Reading the child from the node is faster than reading back the entry just written.
                 return Some(node.children[lane]);
             }
         }
         None
     }
 
-    /// Pops the next child that the ray enters at or before `end`. With `ANY`, `end` has no effect.
+    /// With `ANY`, `end` has no effect.
     #[inline(always)]
     pub fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
@@ -137,7 +131,7 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
 }
 
 impl Stack<'_, false> {
-    /// Pushes all children whose boxes the ray meets, in the order of [`push`](Self::push).
+    /// Like [`push`](Self::push), but pushes the first child as well.
     ///
     /// # Safety
     /// As for [`push`](Self::push). In addition, [`pop_down`](Self::pop_down) is called before the next `push_all`.
@@ -159,8 +153,8 @@ impl Stack<'_, false> {
     /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.
     #[inline(always)]
     pub unsafe fn pop_down(&mut self, end: f32) -> Child {
-        // SAFETY: by the contracts of this function and `of`, `reset`, `push` and `push_all` have written the entries
-        // below `len`. The loop ends at the bottom or above, because the bottom is entered at minus infinity.
+        // SAFETY: by the contracts of this function and `of`, the entries below `len` are written. The loop ends at the
+        // bottom or above, because the bottom is entered at minus infinity.
         unsafe {
             self.len -= 1;
             while self.entries.enters.get_unchecked(self.len).assume_init() > end {

@@ -1,8 +1,8 @@
 //! Interleaved closest-hit queries: several single rays are active at once.
 //!
-//! **The same hits as one ray after the other.** Each ray has its own stack and takes the same steps in the same order
-//! as a single ray. After a step of one ray, the memory for its next step is prefetched while the other rays take
-//! steps. Rays at nodes and rays at leaves are in separate lists, so no branch depends on the type of the next child.
+//! Each ray has its own stack and takes the steps of a single ray. So interleaving changes no hit. After a step of one
+//! ray, the memory for its next step is prefetched. Rays at nodes and rays at leaves are in separate lists. So no
+//! branch depends on the type of the next child.
 
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
@@ -29,13 +29,12 @@ struct StreamRay<'a, T: TriangleTest> {
     nearest: Nearest<T::Depth<'a>>,
     /// Boxes that the ray enters after this parameter are skipped.
     end: f32,
-    /// The node or leaf to visit next.
     child: Child,
     /// The number of the ray in its slice.
     number: usize,
     entries: Entries,
     /// The length of the stack in `entries`.
-    left: usize,
+    stack_len: usize,
 }
 
 pub(super) struct Slots<'a, T: TriangleTest>([MaybeUninit<StreamRay<'a, T>>; SLOTS]);
@@ -44,7 +43,6 @@ impl<T: TriangleTest> Slots<'_, T> {
     pub const EMPTY: Self = Self([const { MaybeUninit::uninit() }; SLOTS]);
 }
 
-/// Pointers to some of the slots.
 struct List<'a, T: TriangleTest>([*mut StreamRay<'a, T>; SLOTS]);
 
 impl<'a, T: TriangleTest> List<'a, T> {
@@ -73,11 +71,8 @@ impl<'a, T: TriangleTest> List<'a, T> {
 pub(super) struct Stream<'a, T: TriangleTest> {
     tree: &'a Bvh8<T>,
     slots: PhantomData<&'a mut Slots<'a, T>>,
-    /// Slots with a ray at a node.
     nodes: List<'a, T>,
-    /// Slots with a ray at a leaf.
     leaves: List<'a, T>,
-    /// Slots without a ray.
     free: List<'a, T>,
     /// The lengths of the three lists.
     at_nodes: usize,
@@ -96,7 +91,6 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         Self { tree, slots: PhantomData, nodes, leaves, free, at_nodes: 0, at_leaves: 0, freed: SLOTS }
     }
 
-    /// Traces all of `rays`; `done` receives the number and the hit of each ray.
     #[inline(always)]
     pub fn run<L: EightLanes>(
         &mut self,
@@ -115,17 +109,17 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         }
     }
 
-    /// Starts a ray: visits the root and, if the ray meets one of its boxes, takes a slot. There must be a free slot.
+    /// A slot must be free.
     #[inline(always)]
     fn push<L: EightLanes>(&mut self, number: usize, ray: &'a Ray, done: &mut impl FnMut(usize, Option<Hit>)) {
         let (tree, root) = (self.tree, self.tree.root);
         let Some((t_min, nearest)) = start::<T>(ray).filter(|_| !root.is_leaf()) else { return done(number, None) };
         let (prepared_ray, end) = (PreparedRay::new(ray, tree.farthest, t_min), after(nearest.t));
-        // SAFETY: `freed` is above 0 and counts the slots in `free`, which `new` has borrowed for the lifetime of the
-        // stream. Every field of the slot is written before the slot is put into a list, except the entries above the
-        // top of its stack, which `left` excludes. A slot is counted in one list at a time, so no list becomes longer
-        // than `SLOTS`. A root that is not a leaf is a node (invariants of `Bvh8`). It begins every path, as `push_all`
-        // needs.
+        // SAFETY: `freed` is above 0 and counts the slots in `free`. `new` has borrowed these slots for the lifetime of
+        // the stream. Every field of the slot is written before the slot is put into a list. Unwritten entries lie
+        // above the top of the stack, which `stack_len` marks. A slot is counted in one list at a time, so no list
+        // becomes longer than `SLOTS`. A root that is not a leaf is a node (invariants of `Bvh8`). The root is the
+        // first node of every path.
         unsafe {
             let slot = self.free.get(self.freed - 1);
             Entries::reset(&raw mut (*slot).entries);
@@ -133,7 +127,7 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
             let node = tree.nodes.get_unchecked(root.index());
             stack.push_all::<L>(node, prepared_ray.octant, prepared_ray.cross(node, end));
             let child = stack.pop_down(end);
-            let left = stack.len();
+            let stack_len = stack.len();
             if child == Child::BOTTOM {
                 return done(number, None);
             }
@@ -147,7 +141,7 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
             (&raw mut (*slot).nearest).write(nearest);
             (&raw mut (*slot).child).write(child);
             (&raw mut (*slot).number).write(number);
-            (&raw mut (*slot).left).write(left);
+            (&raw mut (*slot).stack_len).write(stack_len);
             self.nodes.put(self.at_nodes, slot);
             self.leaves.put(self.at_leaves, slot);
             self.at_nodes += usize::from(!child.is_leaf());
@@ -155,7 +149,6 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         }
     }
 
-    /// Takes one step of each ray.
     #[inline(always)]
     fn round<L: EightLanes>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
         let tree = self.tree;
@@ -163,16 +156,16 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         let (mut nodes, rays) = (0, self.at_nodes);
         for k in 0..rays {
             // SAFETY: the first `at_nodes` elements of `nodes` are filled. Each slot is in one list, so `at` is the
-            // only reference to it, and no list becomes longer than `SLOTS`. Its child is a node, so the bottom of its
-            // stack, a leaf, has not been popped. A path has at most `DEPTH` nodes (invariants of `Bvh8`).
+            // only reference to the slot. No list becomes longer than `SLOTS`. The child of the slot is a node, so the
+            // bottom of its stack has not been popped. A path has at most `DEPTH` nodes (invariants of `Bvh8`).
             unsafe {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;
                 let node = tree.nodes.get_unchecked(at.child.index());
-                let mut stack = Stack::<false>::of(&mut at.entries, at.left);
+                let mut stack = Stack::<false>::of(&mut at.entries, at.stack_len);
                 stack.push_all::<L>(node, at.prepared_ray.octant, at.prepared_ray.cross(node, at.end));
                 at.child = stack.pop_down(at.end);
-                at.left = stack.len();
+                at.stack_len = stack.len();
                 tree.fetch(at.child);
                 self.nodes.put(nodes, slot);
                 self.leaves.put(self.at_leaves + k - nodes, slot);
@@ -192,9 +185,9 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
                     let (ray, nearest) = (&at.ray, &mut at.nearest);
                     search::<false, L, T, ()>(blocks, u32::MAX, ray, at.t_min, nearest, &mut None, &mut ());
                     at.end = after(at.nearest.t);
-                    let mut stack = Stack::<false>::of(&mut at.entries, at.left);
+                    let mut stack = Stack::<false>::of(&mut at.entries, at.stack_len);
                     at.child = stack.pop_down(at.end);
-                    at.left = stack.len();
+                    at.stack_len = stack.len();
                     tree.fetch(at.child);
                     self.nodes.put(nodes, slot);
                     self.leaves.put(leaves, slot);
@@ -212,7 +205,6 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
 }
 
 impl<T: TriangleTest> Bvh8<T> {
-    /// Prefetches the node `child`, or most of the first block of the leaf `child`.
     #[inline(always)]
     fn fetch(&self, child: Child) {
         let node = self.nodes.as_ptr().wrapping_add(child.index()).cast::<u8>();

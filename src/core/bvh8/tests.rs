@@ -17,7 +17,6 @@ type Tree = Bvh8<MollerTrumbore>;
 
 const ALL: [Partition; 4] = [Partition::Cells, Partition::Tight, Partition::Hybrid, Partition::Objects];
 
-/// Coincident triangles, which no partition can divide, and a few separate triangles.
 #[test]
 fn rays_test_only_triangles_of_leaves_that_they_meet_and_no_lanes_left_over() {
     let coincident = [1, 8, 9, 40].map(|count| mesh(count, |_| [Vec3::X, Vec3::Y, Vec3::Z]));
@@ -69,8 +68,8 @@ fn the_unit_of_length_does_not_matter() {
     }
 }
 
-/// A direction component may be so small that its inverse is finite and its enlarged inverse is infinite. Ray 5 has
-/// such a component. It passes the triangles so closely that the triangle test reports a hit.
+/// Ray 5 has a direction component whose inverse is finite, and whose enlarged inverse is infinite. The ray passes the
+/// triangles so closely that the triangle test reports a hit.
 #[test]
 fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
     let mesh = mesh(200, |i| {
@@ -96,7 +95,7 @@ fn several_answer_as_one<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
         for level in Level::available() {
             let mut hits = vec![None; rays.len()];
             let which = &Groups::all(rays.len());
-            dispatch(level, Interleaved::<T, _, _> { tree, rays, which, answers: &mut hits, form: &Some });
+            dispatch(level, Interleaved::<T, _, _> { tree, rays, which, answers: &mut hits, convert: &Some });
             for (hit, ray) in hits.iter().zip(rays) {
                 let alone = Some(as_bits(&[tree.closest_hit(ray, &mut ())]));
                 assert_eq!(hit.map(|hit| as_bits(&[hit])), alone, "{partition:?}, {level}, {ray:?}");
@@ -105,7 +104,6 @@ fn several_answer_as_one<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) {
     }
 }
 
-/// A ray near the unit cube; the direction of every fifth ray has x = 0.
 fn scattered(i: u32) -> Ray {
     let number = |k: u32| ((i * 6 + k).wrapping_mul(2_654_435_761) >> 8) as f32 / (1 << 24) as f32 * 3.0 - 1.0;
     let x = if i.is_multiple_of(5) { 0.0 } else { number(3) };
@@ -114,7 +112,6 @@ fn scattered(i: u32) -> Ray {
 
 #[test]
 fn several_rays_under_way_find_what_each_finds_alone() {
-    // Trees: empty, of one block, of several blocks below the root, and of many levels.
     for n in [0, 3, 30, 3000] {
         let mesh = Arc::new(soup(n, 5));
         let mut rays: Vec<Ray> = (0..500).map(scattered).collect();
@@ -126,7 +123,7 @@ fn several_rays_under_way_find_what_each_finds_alone() {
     }
 }
 
-/// If all three inverses are NaN, a ray meets all eight boxes of a node, including the boxes of unused lanes.
+/// If all three inverses are NaN, a ray also meets the boxes of unused lanes.
 #[test]
 fn rays_without_an_inverse_on_any_axis_are_not_through_at_the_first_unused_lane() {
     let mesh = Arc::new(soup(300, 5));
@@ -143,7 +140,6 @@ fn rays_without_an_inverse_on_any_axis_are_not_through_at_the_first_unused_lane(
     }
 }
 
-/// Slices of several windows, with coherent and incoherent groups of sixteen rays, and a few rays at the end.
 #[test]
 fn long_slices_are_answered_as_their_rays_are() {
     let mesh = Arc::new(soup(300, 5));
@@ -189,8 +185,7 @@ fn as_bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, PrimId)>> {
     hits.iter().map(|hit| hit.map(|hit| (hit.t.to_bits(), hit.prim))).collect()
 }
 
-/// Sixty-four triangles that differ by a few bits; some are equal. Rays start anywhere, in a triangle, on its edge or
-/// at its corner; some end close to their start. If `f32` cannot decide the order of hits, exact arithmetic does.
+/// The triangles differ by a few bits; some are equal. If `f32` cannot decide the order of hits, exact arithmetic does.
 #[test]
 fn crowds_of_triangles_are_ordered_exactly() {
     let bits = |i: u32| i.wrapping_mul(0x9e37_79b1).rotate_left(11).wrapping_mul(2_654_435_761);
@@ -232,7 +227,6 @@ fn several_rays_at_once_are_refused_over_tests_that_they_are_not_compiled_for() 
     assert!(matches!(refused, Err(BuildError::Config(_))));
 }
 
-/// Limits that a small mesh exceeds.
 #[test]
 fn a_tree_beyond_the_limits_is_refused_in_a_sentence() {
     let mesh = Arc::new(soup(6000, 32));

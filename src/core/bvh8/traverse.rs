@@ -1,13 +1,18 @@
 //! The traversal of a single ray, for both queries.
 //!
-//! **No hit is lost.** Let the ray hit a triangle at the exact t* in its interval. Partitions round the boxes of
-//! clipped parts outward, so some leaf has a reference to the triangle and a box that contains the hit point. The boxes
-//! of all nodes above this leaf contain the point as well. The traversal enters all these boxes (see [`PreparedRay`])
-//! or has already found a hit with a computed t before t*; `kdtree/traverse.rs` explains why this case is correct.
+//! **No hit is lost.** Let the ray hit a triangle at the point p, at the exact parameter t* in the interval of the ray.
 //!
-//! The closest-hit query visits children from front to back, in an order stored for the octant of the direction. The
-//! any-hit query visits lanes from the highest to the lowest: leaves before nodes and large boxes before small ones,
-//! because large boxes occlude most (Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014).
+//! - The build rounds the boxes of clipped triangles outward. So the box of some leaf with this triangle contains p.
+//! - The boxes of all nodes above this leaf contain p.
+//! - A closest-hit query skips a box that contains p only after a hit with a computed t before t* (see
+//!   [`PreparedRay`]). `kdtree/traverse.rs` explains why the result is correct.
+//! - An any-hit query skips a box that contains p only after some hit.
+//!
+//! A closest-hit query visits children in the order that the node stores for the octant of the ray's direction. An
+//! any-hit query visits leaves before nodes. Among nodes, an any-hit query visits large boxes before small boxes.
+//!
+//! # References
+//! Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014.
 
 use super::node::Child;
 use super::prepared_ray::PreparedRay;
@@ -46,20 +51,18 @@ impl<T: TriangleTest> Bvh8<T> {
         }
         let prepared_ray = PreparedRay::new(ray, self.farthest, t_min);
         let OnePage(_, entries) = &mut OnePage::new(Entries::new());
-        // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
+        // SAFETY: `Stack::of` accepts all entries for the length 0.
         let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
-        // SAFETY: a root that is not a leaf is a node (invariants of `Bvh8`), and the first node of every path.
+        // SAFETY: the root is not a leaf, so the root is a node (invariants of `Bvh8`). No node has been entered yet.
         let first =
             unsafe { self.enter::<ANY, L, O>(self.root, &prepared_ray, after(nearest.t), &mut stack, observer) };
-        // Prepare the ray for triangles only now, because many rays meet no box of the root.
+        // Prepare the ray for triangles only now, because many rays miss all children of the root.
         let Some(first) = first else { return };
         self.descend::<ANY, L, O>(first, &mut stack, &prepared_ray, &T::prepare(ray), nearest, observer);
     }
 
-    /// Pushes the children whose boxes the ray enters at or before `end`, except the first child, which is returned.
-    ///
     /// # Safety
-    /// `node` is a node of the tree. No node of its path has been entered twice since the stack was empty.
+    /// `node` is a node of the tree. `node` has not been entered since the stack was empty.
     #[inline(always)]
     unsafe fn enter<const ANY: bool, L: EightLanes, O: Observer>(
         &self,
@@ -70,7 +73,8 @@ impl<T: TriangleTest> Bvh8<T> {
         observer: &mut O,
     ) -> Option<Child> {
         observer.inner();
-        // SAFETY: a path has at most `DEPTH` nodes (invariants of `Bvh8`), and by contract each is pushed once.
+        // SAFETY: by contract, `node` is a node of the tree and is pushed once. No path has more than `DEPTH` nodes
+        // (invariants of `Bvh8`).
         unsafe {
             let node = self.nodes.get_unchecked(node.index());
             stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, end))
@@ -91,15 +95,15 @@ impl<T: TriangleTest> Bvh8<T> {
         let (t_min, mut end) = (prepared_ray.t_min, after(nearest.t));
         loop {
             let next = if let Some((first, count)) = child.blocks() {
-                // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
+                // SAFETY: a leaf refers to a range of `blocks` (invariants of `Bvh8`).
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
-                // Counting triangles takes a loop over all lanes of the leaf, so only active observers pay for it.
+                // `search` needs the exact number of triangles only for an active observer.
                 let mut held = u32::MAX;
                 if O::ACTIVE {
                     held = blocks.iter().map(|block| block.len()).sum();
                     observer.leaf(held);
                 }
-                // Keeps the compiler from loading the prepared ray before the first node: many rays meet no leaf.
+                // `black_box` keeps the compiler from loading `prepared` before the loop. Many rays meet no leaf.
                 let prepared = std::hint::black_box(prepared);
                 search::<ANY, L, T, O>(blocks, held, prepared, t_min, nearest, &mut None, observer);
                 if ANY && nearest.found() {
@@ -108,7 +112,7 @@ impl<T: TriangleTest> Bvh8<T> {
                 end = after(nearest.t);
                 None
             } else {
-                // SAFETY: a child that is not a leaf names one of `nodes` (invariants of `Bvh8`). It is entered once.
+                // SAFETY: a child that is not a leaf is a node (invariants of `Bvh8`). Each child is entered once.
                 unsafe { self.enter::<ANY, L, O>(child, prepared_ray, end, stack, observer) }
             };
             match next.or_else(|| stack.pop(end)) {

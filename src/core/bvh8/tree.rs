@@ -11,36 +11,33 @@ use crate::traversal::leaf::LeafBlock;
 use crate::traversal::line::farthest;
 use crate::triangle::TriangleTest;
 
-/// A tree of nodes with eight tight boxes, and leaves of blocks of eight triangles.
+/// A bounding volume hierarchy with up to eight children per node. Leaves store triangles in blocks of eight.
 ///
-/// The configuration selects the partition: by spatial splits (disjoint cells, with a tight box in each), by object
-/// splits, or by both. Collapse, layout and traversal are the same for all partitions. If the duplication of references
-/// is bounded, a build takes O(n log n) time and memory. The tree is the same for every number of threads and cannot be
-/// updated. A node takes 256 bytes; a block over Möller-Trumbore takes 320 bytes.
-///
-/// `papers/TUNING.md` documents how the constants were chosen and which experiments were rejected.
+/// The configuration selects spatial splits, object splits, or both. The tree does not depend on the number of threads.
 ///
 /// # References
 /// Wald, Benthin, Boulos: Getting rid of packets, 2008 (wide nodes for single rays). Ylitie, Karras, Laine: Efficient
 /// incoherent ray traversal on GPUs through compressed wide BVHs, 2017 (the collapse). Stich, Friedrich, Dietrich:
 /// Spatial splits in bounding volume hierarchies, 2009.
 pub struct Bvh8<T: TriangleTest> {
-    // The `unsafe` blocks of the traversals rely on these invariants, which `Layout` establishes; a tree is never
-    // changed. The root and all children of nodes name nodes in `nodes` or ranges of `blocks`. The root is a leaf only
-    // if there are no triangles. Each node is the child of at most one other node. No path from the root has more than
-    // `DEPTH` nodes, because `Limits::check` rejects longer paths.
+    // The `unsafe` blocks of the traversals rely on these invariants. `Layout` establishes the invariants. No code
+    // changes a tree after the build.
+    // - The root and every child refer to a node in `nodes` or to a range of `blocks`.
+    // - The root is a leaf only if the tree has no triangles.
+    // - Each node is a child of at most one node.
+    // - No path from the root has more than `DEPTH` nodes (see `Limits::check`).
     pub(super) root: Child,
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<LeafBlock<T>>,
     pub(super) bounds: Aabb,
-    /// The largest magnitude of a coordinate of `bounds` on each axis.
+    /// For each axis, the largest magnitude of a coordinate in `bounds`.
     pub(super) farthest: Vec3A,
     pub(super) batch: Batch,
     /// Whether closest-hit queries with [`Batch::Packets`] interleave the rays that form no packet.
     pub(super) interleaves: bool,
 }
 
-/// The size in bytes of the second-level cache of many processors. A smaller tree has few cache misses to hide.
+/// A typical size of a second-level cache, in bytes. A tree that fits into the cache causes few cache misses.
 const CACHE: usize = 2 << 20;
 
 impl<T: TriangleTest> Bvh8<T> {

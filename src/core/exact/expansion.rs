@@ -4,12 +4,11 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-/// A number as the exact sum of nonzero floats in ascending magnitude. The empty sum is zero. The bits of two terms do
-/// not overlap, and are not adjacent, because sums round to even. Only [`Expansion::of_integer`] may make terms with
-/// adjacent bits; the largest term then still equals the number up to a relative error of 2^-53.
+/// A number as the exact sum of nonzero floats in ascending magnitude. The bits of different terms do not overlap.
 ///
-/// The operations are exact unless they overflow or underflow. Products of six differences of `f32` numbers do neither:
-/// they are below 2^780 and multiples of 2^-894. A fused multiply-add computes the error of a product.
+/// The operations are exact unless a result overflows or underflows. A product of six differences of `f32` numbers
+/// neither overflows nor underflows. The magnitude of such a product is below 2^780. Such a product is a multiple of
+/// 2^-894.
 ///
 /// # References
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. Discrete &
@@ -24,7 +23,6 @@ impl Expansion {
         difference
     }
 
-    /// `x` times 2 to the power of `exponent`. `x` is below 2^126 in magnitude, `exponent` in [-1022, 800].
     pub fn of_integer(mut x: i128, exponent: i32) -> Self {
         debug_assert!(x.unsigned_abs() < 1 << 126 && (-1022..=800).contains(&exponent));
         let scale = f64::from_bits(((1023 + exponent) as u64) << 52);
@@ -38,7 +36,7 @@ impl Expansion {
         Self(terms)
     }
 
-    /// Adds a float by Shewchuk's Grow-Expansion. Drops zero terms.
+    /// Adds a float by Shewchuk's Grow-Expansion.
     fn add(&mut self, mut x: f64) {
         let mut kept = 0;
         for i in 0..self.0.len() {
@@ -55,7 +53,6 @@ impl Expansion {
         }
     }
 
-    /// Adds `sign * a * b`, where `sign` is 1 or -1.
     fn add_signed_product(&mut self, sign: f64, a: &Self, b: &Self) {
         for &x in &a.0 {
             for &y in &b.0 {
@@ -74,7 +71,6 @@ impl Expansion {
         minor
     }
 
-    /// The dot product.
     pub fn dot(a: &[Self; 3], b: &[Self; 3]) -> Self {
         let mut sum = Self::default();
         for (x, y) in a.iter().zip(b) {
@@ -87,12 +83,12 @@ impl Expansion {
         self.0.iter_mut().for_each(|term| *term = -*term);
     }
 
-    /// The order of the number and zero: the sign of the largest term, which exceeds the sum of all other terms.
+    /// The sign of the number is the sign of the largest term.
     pub fn sign(&self) -> Ordering {
         self.0.last().map_or(Ordering::Equal, |largest| largest.total_cmp(&0.0))
     }
 
-    /// The value with a relative error below 2^-51.
+    /// The value of the number, with a relative error below 2^-51.
     pub fn approximate(&self) -> f64 {
         self.0.iter().fold(0.0, |sum, term| sum + term)
     }
@@ -113,7 +109,7 @@ impl From<f64> for Expansion {
     }
 }
 
-/// The rounded sum and the rounding error (Knuth).
+/// The rounded sum and the exact rounding error (Knuth's TwoSum).
 #[inline(always)]
 pub(super) fn exact_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -128,7 +124,6 @@ mod tests {
 
     use super::*;
 
-    /// Checks the sign and the approximation of `sum`, whose value is `right`.
     fn approximates(sum: &Expansion, right: RBig) {
         assert_eq!(sum.sign(), right.cmp(&RBig::ZERO));
         let error = (RBig::try_from(sum.approximate()).unwrap() - &right) * RBig::from(1_u64 << 51);
@@ -138,7 +133,6 @@ mod tests {
 
     #[test]
     fn integers_are_those_of_rationals() {
-        // The second largest term of `touching` is half of the lowest bit of the largest. `around` is near powers of 2.
         let touching = (((1_i128 << 52) + 1) << 73) + (1 << 72) - 1;
         let around = (0..126).flat_map(|bits| [-1, 0, 1].map(|k| (1_i128 << bits) + k)).filter(|&x| x < 1 << 126);
         for x in around.chain([touching, (1 << 126) - 1, 0x1234_5678_9abc_def0_1234_5678_9abc]) {
@@ -152,11 +146,9 @@ mod tests {
         }
     }
 
-    /// Terms of all sizes and signs; some cancel.
     #[test]
     fn sums_and_products_are_those_of_rationals() {
         let rational = |x: &Expansion| RBig::from(x);
-        // One third of the numbers has all sizes, two thirds have similar sizes.
         let number = |i: u32| {
             let bits = i.wrapping_mul(2_654_435_761);
             let similar = bits & 0xbfff_ffff | 0x2000_0000;
@@ -167,7 +159,7 @@ mod tests {
             let minor = Expansion::minor(&a, &b, &c, &d);
             let right = rational(&a) * rational(&b) - rational(&c) * rational(&d);
             assert_eq!(rational(&minor), right);
-            // Each term is less than half of the lowest bit of the next term.
+            // The magnitude of each term is less than half of the lowest set bit of the next term.
             for pair in minor.0.windows(2) {
                 let next = pair[1].to_bits();
                 let (bits, exponent) = (next & ((1 << 52) - 1), (next >> 52 & 0x7ff) as i32 - 1075);

@@ -1,4 +1,5 @@
-//! Intersects a line and a triangle in integers. Faster than sums of floats, but the used bits must span few places.
+//! Intersects a line and a triangle in integers. Integers are faster than sums of floats. Not every input fits into
+//! the integers.
 
 use std::cmp::Ordering;
 
@@ -9,9 +10,14 @@ use super::expansion::Expansion;
 use crate::geometry::Ray;
 use crate::simd::each;
 
-/// The number of bits from the lowest to the highest used bit: p for points, d for a direction. Coordinates of points
-/// are below 2^p, their differences below 2^(p + 1), components of cross products below 2^(2 p + 3). The dot product of
-/// a cross product and a direction is below 2^(2 p + d + 5). If the direction is a difference, it is below 2^(3 p + 6).
+/// A number of bits that suffices for the magnitude of each integer in a set.
+///
+/// Let the points have p places and the direction d places. Then these magnitudes are bounded:
+/// - Coordinates of points are below 2^p.
+/// - Differences of coordinates are below 2^(p + 1).
+/// - Components of the cross product of two differences are below 2^(2 p + 3).
+/// - The dot product of this cross product and the direction is below 2^(2 p + d + 5).
+/// - The dot product of this cross product and a difference is below 2^(3 p + 6).
 type Places = i32;
 
 /// Whether triple products of two differences and a direction are below 2^126.
@@ -24,7 +30,7 @@ fn heights_fit(points: Places) -> bool {
     points <= 40
 }
 
-/// Like [`hit`](super::hit), for finite numbers. `None` if the numbers do not fit into the integers.
+/// Like [`hit`](super::hit), for finite numbers. The outer `None` means that the numbers do not fit into the integers.
 pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     let [a, b, c] = corners;
     let (points, unit, places) = integers([ray.origin, a, b, c])?;
@@ -57,14 +63,12 @@ pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     }))
 }
 
-/// Like [`side`](super::side); `None` if the numbers do not fit.
 pub(super) fn side(ray: &Ray, [p, q]: [Vec3; 2]) -> Option<Ordering> {
     let ([origin, p, q], _, places) = integers([ray.origin, p, q])?;
     let ([direction], _, direction_places) = integers([ray.direction])?;
     sides_fit(places, direction_places).then(|| dot(direction, cross(minus(p, origin), minus(q, origin))).cmp(&0))
 }
 
-/// Like [`height`](super::height); `None` if the numbers do not fit.
 pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     let ([origin, a, b, c], unit, places) = integers([origin, a, b, c])?;
     if !heights_fit(places) {
@@ -74,7 +78,8 @@ pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     Some(Expansion::of_integer(height, 3 * unit).approximate())
 }
 
-/// The vectors as multiples of a power of two, its exponent, and the used places. `None` for more than 60 places.
+/// Returns the vectors as multiples of a power of two, the exponent of this power, and the number of places. Returns
+/// `None` for more than 60 places.
 fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32, Places)> {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for x in vectors.iter().flat_map(|vector| vector.to_array()).filter(|&x| x != 0.0) {
@@ -110,7 +115,6 @@ mod tests {
     use super::super::{difference, direction, hit_by_sums, side_by_sums, tracked};
     use super::*;
 
-    /// Numbers on coarse grids, where rays often meet edges or corners; on a fine grid; and of all sizes.
     #[test]
     fn integers_and_unrounded_floats_give_what_sums_give() {
         const ALL_SIZES: u32 = 1 << 24;
@@ -157,7 +161,6 @@ mod tests {
         assert!((20_000..59_000).contains(&unrounded) && zeros > 2_000, "{unrounded} {zeros}");
     }
 
-    /// The largest integers that fit, with all signs, in units from the smallest to the largest.
     #[test]
     fn what_just_fits_does_not_overflow() {
         let most = (1_i64 << 40) - (1 << 16);
@@ -167,7 +170,7 @@ mod tests {
             for signs in 0..1_u32 << 15 {
                 let x = |k: u32| number(1 - 2 * i64::from(signs >> k & 1));
                 let vector = |k: u32| Vec3::new(x(3 * k), x(3 * k + 1), x(3 * k + 2));
-                // One component of the origin and one of the direction use the lowest place.
+                // One component of the origin and one component of the direction use the lowest bit.
                 let ray = Ray::new(Vec3 { x: unit, ..vector(0) }, Vec3 { y: unit, ..vector(1) });
                 let corners = [vector(2), vector(3), vector(4)];
                 let found = hit(&ray, corners).expect("it fits");

@@ -1,4 +1,4 @@
-//! Exact ray-triangle intersection: whether and where a ray of `f32` numbers hits, and the order of hits.
+//! Exact intersection of rays and triangles with `f32` coordinates.
 
 mod expansion;
 mod integers;
@@ -14,7 +14,7 @@ use crate::geometry::Ray;
 use crate::simd::indexed;
 use expansion::{Expansion, exact_sum};
 
-/// An exact ray parameter, as a fraction. Parameters of one ray are ordered exactly.
+/// An exact ray parameter, as a fraction. Comparisons of parameters are exact.
 #[derive(Clone, Debug)]
 pub struct ExactT {
     numerator: Expansion,
@@ -22,12 +22,14 @@ pub struct ExactT {
     denominator: Expansion,
 }
 
-/// The parameter at which the line of `ray` meets the closed triangle. `None` if it misses or lies in the plane.
+/// The parameter at which the line of `ray` meets the closed triangle. The result is `None` if the line misses the
+/// triangle or lies in the plane of the triangle.
 ///
-/// The function ignores the interval of the ray: see [`ExactT::is_within`]. If a number is not finite, the ray misses.
-/// Costs 50 nanoseconds, or a microsecond if the significant bits of the numbers span more than forty places.
+/// The function ignores the interval of the ray (see [`ExactT::is_within`]). The result is `None` if a number is not
+/// finite.
 ///
-/// The line meets the closed triangle if no two of the three signed volumes with its edges have opposite signs.
+/// Let the corners be a, b and c. The line misses the triangle if [`side`] is opposite for two of the edges ab, bc
+/// and ca.
 ///
 /// # References
 /// Segura, Feito: Algorithms to test ray-triangle intersection. Comparative study. WSCG 2001.
@@ -38,9 +40,10 @@ pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     integers::hit(ray, corners).unwrap_or_else(|| hit_by_sums(ray, corners))
 }
 
-/// The numerator of `t`: (a - origin) . ((b - a) x (c - a)), six times the volume of the tetrahedron of `origin` and
-/// the triangle. The relative error is below 2^-49; the result is zero if and only if the four points lie in a plane.
-/// The numbers must be finite. Costs a quarter of [`hit`].
+/// The triple product (a - origin) . ((b - a) x (c - a)) for the corners a, b and c.
+///
+/// The relative error is below 2^-49. The result is zero if and only if `origin` and the corners lie in one plane. All
+/// coordinates must be finite.
 pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
     let of_sums = || {
         let [a, ..] = corners;
@@ -49,8 +52,9 @@ pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
     integers::height(origin, corners).unwrap_or_else(of_sums)
 }
 
-/// The side on which the line of `ray` passes the line through p and q: the sign of direction . ((p - origin) x (q -
-/// origin)), zero if the lines meet or are parallel. The numbers must be finite. Costs a sixth of [`hit`].
+/// The side on which the line of `ray` passes the edge from p to q.
+///
+/// The result is the sign of direction . ((p - origin) x (q - origin)). All coordinates must be finite.
 #[inline(always)]
 pub fn side(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
     tracked::side(ray, edge).unwrap_or_else(|| side_of_any_size(ray, edge))
@@ -65,13 +69,12 @@ fn side_of_any_size(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
     integers::side(ray, edge).unwrap_or_else(of_sums)
 }
 
-/// Whether the line of `ray` passes exactly through a point. The numbers must be finite.
-///
-/// Costs a few nanoseconds, or more if rounding errors could decide the result.
+/// Whether the line of `ray` passes exactly through `point`. All coordinates must be finite.
 #[inline(always)]
 pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
     let (direction, offset) = (ray.direction.as_dvec3(), point.as_dvec3() - ray.origin.as_dvec3());
-    // Products have relative errors below 3 * 2^-53. If they differ by more than 8 * 2^-53, the exact products differ.
+    // Each product has a relative error below 1.5 epsilons. So if two exact products are equal, the computed products
+    // have a relative difference below 4 epsilons.
     let may_be_equal = |x: f64, y: f64| (x - y).abs() <= 4.0 * f64::EPSILON * x.abs();
     may_be_equal(direction.x * offset.y, direction.y * offset.x)
         && may_be_equal(direction.y * offset.z, direction.z * offset.y)
@@ -79,13 +82,13 @@ pub fn passes_through(ray: &Ray, point: Vec3) -> bool {
         && surely_passes_through(ray, point)
 }
 
-/// [`passes_through`] without rounding: whether direction x (point - origin) is zero.
+/// Whether direction x (point - origin) is exactly zero.
 fn surely_passes_through(ray: &Ray, point: Vec3) -> bool {
     let offset: [_; 3] = indexed(|axis| exact_sum(point[axis].into(), -f64::from(ray.origin[axis])));
     if offset.iter().any(|&(_, error)| error != 0.0) {
         return cross(&direction(ray), &difference(point, ray.origin)).iter().all(|minor| minor.sign().is_eq());
     }
-    // Products are equal if their rounded values and their rounding errors are equal.
+    // Two exact products are equal if and only if the rounded products and the rounding errors are equal.
     let product = |i: usize, j: usize| {
         let (x, y) = (f64::from(ray.direction[i]), offset[j].0);
         (x * y, if x * y == 0.0 { 0.0 } else { x.mul_add(y, -(x * y)) })
@@ -93,7 +96,7 @@ fn surely_passes_through(ray: &Ray, point: Vec3) -> bool {
     [(0, 1), (1, 2), (2, 0)].iter().all(|&(i, j)| product(i, j) == product(j, i))
 }
 
-/// [`side`] in sums of floats; `p` and `q` are relative to the origin.
+/// `p` and `q` are relative to the origin of the ray.
 fn side_by_sums(direction: &[Expansion; 3], p: &[Expansion; 3], q: &[Expansion; 3]) -> Ordering {
     Expansion::dot(direction, &cross(p, q)).sign()
 }
@@ -114,7 +117,6 @@ fn normal([a, b, c]: [Vec3; 3]) -> [Expansion; 3] {
     cross(&difference(b, a), &difference(c, a))
 }
 
-/// [`hit`] in sums of floats, for all finite numbers.
 fn hit_by_sums(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
     let direction = direction(ray);
     let [a, b, c] = corners.map(|corner| difference(corner, ray.origin));
@@ -144,18 +146,19 @@ fn hit_by_sums(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
 }
 
 impl ExactT {
-    /// Whether this `t` lies in the half-open interval of `ray` and rounds to a finite number (see [`Ray::end`]).
+    /// Whether this `t` lies in the half-open interval of `ray`. A `t` that rounds to infinity lies outside (see
+    /// [`Ray::end`]).
     pub fn is_within(&self, ray: &Ray) -> bool {
         let begun = self.order(ray.interval().0.into()).is_ge();
         begun && !ray.t_max.is_nan() && self.order(ray.end()).is_lt()
     }
 
-    /// The order of this `t` and a float, which may be infinite; `None` for NaN.
+    /// Compares this `t` with a finite or infinite float. The result is `None` for NaN.
     pub fn compare(&self, t: f32) -> Option<Ordering> {
         (!t.is_nan()).then(|| self.order(t.into()))
     }
 
-    /// The order of this `t` and a number: a float, the middle of two neighbouring floats, or infinity.
+    /// `t` must be an `f32` number, the middle of two neighbouring `f32` numbers, or infinite.
     fn order(&self, t: f64) -> Ordering {
         if t.is_infinite() {
             return 0.0_f64.total_cmp(&t);
@@ -167,19 +170,21 @@ impl ExactT {
         Expansion::minor(&self.numerator, &one, &Expansion::from(t), &self.denominator).sign()
     }
 
-    /// This `t` with a relative error below 2^-50. The quotient neither overflows nor underflows: the numerator and the
-    /// denominator are below 2^391 in magnitude and, if not zero, at least 2^-447.
+    /// This `t`, with a relative error below 2^-50.
     pub fn approximate(&self) -> f64 {
+        // The quotient neither overflows nor underflows. A nonzero numerator or denominator is between 2^-447 and 2^391
+        // in magnitude.
         self.numerator.approximate() / self.denominator.approximate()
     }
 
-    /// The nearest `f32`, ties to even. Infinity if this `t` exceeds the largest finite float by at least half an ulp.
+    /// The nearest `f32`, with ties to even. The result is infinite if the magnitude of this `t` is at least
+    /// 2^128 - 2^103.
     pub fn round(&self) -> f32 {
         if self.numerator.sign().is_eq() {
             return 0.0;
         }
         let near = self.approximate() as f32;
-        // `near` is rounded twice and may be off by one float: check the middles to its neighbours. Infinity is 2^128.
+        // `near` was rounded twice, so the nearest `f32` may be a neighbour of `near`.
         let wide = |x: f32| if x.is_infinite() { f64::from(x.signum()) * 2.0_f64.powi(128) } else { f64::from(x) };
         let middle = |x: f32, y: f32| (wide(x) + wide(y)) / 2.0;
         let is_even = near.to_bits() & 1 == 0;

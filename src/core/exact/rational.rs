@@ -1,7 +1,7 @@
-//! A second implementation of [`hit`](super::hit()), for tests: another formula, in rational numbers.
+//! A second implementation of [`hit`](super::hit()) for tests, in rational numbers.
 //!
-//! It shares only `Ray` and `Vec3` with the first implementation, and takes a hundred times as long. Its functions
-//! panic if an origin, a direction or a corner is not finite; only [`nearest`] accepts such rays, and returns `None`.
+//! The functions panic if an origin, a direction or a corner is not finite. As an exception, [`nearest`] returns `None`
+//! if the origin or the direction is not finite.
 
 use dashu_ratio::RBig;
 use glam::Vec3;
@@ -11,7 +11,7 @@ use crate::geometry::Ray;
 /// The intersection of the line of a ray and the plane of a triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// The divisor of Cramer's rule for the other three numbers; not zero.
+    /// The nonzero divisor in Cramer's rule.
     pub determinant: RBig,
     /// Barycentric coordinate of the second corner.
     pub u: RBig,
@@ -21,12 +21,12 @@ pub struct Solution {
     pub t: RBig,
 }
 
-/// Cramer's rule for `o + t d = a + u e1 + v e2`; `None` if the line is parallel to the plane.
+/// Intersects the line of `ray` and the plane of the triangle by Cramer's rule. The result is `None` if the determinant
+/// is zero.
 pub fn solve(ray: &Ray, corners: [Vec3; 3]) -> Option<Solution> {
     type V = [RBig; 3];
     let rational = |p: Vec3| -> V { p.to_array().map(|x| RBig::try_from(x).expect("finite")) };
     let sub = |a: &V, b: &V| -> V { std::array::from_fn(|i| &a[i] - &b[i]) };
-    // The determinant of three columns, by the rule of Sarrus.
     let det = |[a, b, c]: [&V; 3]| {
         &a[0] * &b[1] * &c[2] + &b[0] * &c[1] * &a[2] + &c[0] * &a[1] * &b[2]
             - &c[0] * &b[1] * &a[2]
@@ -46,13 +46,13 @@ pub fn solve(ray: &Ray, corners: [Vec3; 3]) -> Option<Solution> {
     Some(Solution { determinant, u, v, t })
 }
 
-/// The parameter at which the whole line of `ray` meets the closed triangle.
+/// The parameter at which the line of `ray` meets the closed triangle.
 pub fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
     let Solution { u, v, t, .. } = solve(ray, corners)?;
     (u >= RBig::ZERO && v >= RBig::ZERO && u + v <= RBig::ONE).then_some(t)
 }
 
-/// The `t` of the hit of `ray` in its half-open interval. A `t` that rounds to infinity is beyond the end.
+/// A `t` that rounds to infinity is beyond the end of the interval.
 fn within(ray: &Ray, corners: [Vec3; 3]) -> Option<RBig> {
     let t = hit(ray, corners)?;
     let (t_min, t_max) = ray.interval();
@@ -65,12 +65,14 @@ fn nearest_float(t: &RBig) -> f32 {
     t.to_f32().value()
 }
 
-/// The nearest `f32` to the `t` of the hit of `ray` in its half-open interval. `None` if this float is infinite.
+/// The parameter of the hit in the half-open interval of `ray`, rounded to the nearest `f32`. A parameter that rounds
+/// to infinity is not a hit.
 pub fn hit_within(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     Some(nearest_float(&within(ray, corners)?))
 }
 
-/// Like [`hit_within`], for the nearest hit among `triangles`. At equal exact `t`, the lowest number wins.
+/// The nearest hit in the half-open interval of `ray`: the rounded parameter and the triangle number. Among hits with
+/// equal exact parameters, the lowest triangle number wins.
 pub fn nearest(ray: &Ray, triangles: impl IntoIterator<Item = (u32, [Vec3; 3])>) -> Option<(f32, u32)> {
     if !ray.is_valid() {
         return None;

@@ -30,7 +30,7 @@ fn both_formulations_agree_on_a_grid_and_at_all_scales() {
             on_grid += usize::from(assert_agree(&ray(&mut rng, grid), corners));
         }
         if round % 2 == 0 {
-            // Scales range from denormals, where corners round to a coarse grid, to numbers whose cubes overflow.
+            // The scales range from denormals to numbers with cubes that overflow `f32`.
             let scale = f32::from_bits([1 << 10, 1 << 23, 97 << 23, 127 << 23, 157 << 23, 253 << 23][round / 2 % 6]);
             let corners = triangle(&mut rng, unit).map(|p| p * scale);
             let ray = Ray::new(point(&mut rng, unit) * scale, point(&mut rng, unit));
@@ -55,7 +55,6 @@ fn the_triangle_is_closed_and_its_plane_is_missed() {
     for (x, y) in [(-beside, 0.0), (0.0, -beside), (4.0, beside), (4.0_f32.next_up(), 0.0), (2.0, 2.0_f32.next_up())] {
         assert_eq!(down(x, y), None, "({x}, {y}) is outside");
     }
-    // One ray lies in the plane, the other is parallel to it.
     for z in [0.0, 1.0] {
         assert_eq!(hit(&Ray::new(Vec3::new(-1.0, 1.0, z), Vec3::X), corners), None);
     }
@@ -92,7 +91,6 @@ fn rounding_is_to_nearest_even() {
         assert_eq!(exact(x).compare(x.next_up()), Some(Ordering::Less));
     }
     assert_eq!(exact(0.0).round().to_bits(), 0);
-    // The compiler rounds decimal fractions, independently of this crate.
     assert_eq!(fraction(1.0, 3.0).round(), 1.0 / 3.0);
     assert_eq!(fraction(16_777_217.0, 1.0).round(), 16_777_216.0);
     assert_eq!(fraction(16_777_219.0, 1.0).round(), 16_777_220.0);
@@ -100,7 +98,7 @@ fn rounding_is_to_nearest_even() {
     // These fractions are closer to a tie than `f64` can resolve.
     let near_tie = |off: f64| ExactT { numerator: Expansion::difference(16_777_217.0, off), denominator: 1.0.into() };
     assert_eq!([-1e-20, 0.0, 1e-20].map(|off| near_tie(off).round()), [16_777_218.0, 16_777_216.0, 16_777_216.0]);
-    // Half of the smallest denormal is a tie and rounds to zero; anything larger rounds up.
+    // Half of the smallest denormal is a tie and rounds to zero.
     assert_eq!(fraction(1.0, 2.0_f64.powi(150)).round(), 0.0);
     assert_eq!(fraction(3.0, 2.0_f64.powi(151)).round(), f32::from_bits(1));
     // 2^128 - 2^103 is half an ulp above the largest float.
@@ -108,7 +106,6 @@ fn rounding_is_to_nearest_even() {
     let below = ExactT { numerator: Expansion::difference(limit, 1.0), denominator: 1.0.into() };
     let at = fraction(limit, 1.0);
     assert_eq!((below.round(), at.round()), (f32::MAX, f32::INFINITY));
-    // A `t` that rounds to infinity is beyond the end of every ray.
     let whole = Ray::new(Vec3::ZERO, Vec3::X);
     assert_eq!([&below, &at].map(|t| t.is_within(&whole)), [true, false]);
     assert!(!below.is_within(&whole.until(f32::MAX)));
@@ -142,7 +139,6 @@ fn a_line_passes_through_a_point_if_and_only_if_all_minors_are_zero() {
         let origin = Vec3::new(number(0), few(number(1)), number(2));
         let directions = [Vec3::new(few(number(3)), few(number(4)), 3.0), Vec3::Z, Vec3::new(1e-20, -0.0, 0.0)];
         for direction in directions {
-            // Most products of direction and step are exact; some differences need more digits than `f64` has.
             for origin in [origin, Vec3::new(few(origin.x), origin.y, few(origin.z)), Vec3::new(1e-30, 0.0, 0.0)] {
                 let ray = Ray::new(origin, direction);
                 for step in [0.0, 1.0, -2.0, 1024.0, 3e10] {

@@ -1,4 +1,4 @@
-//! Computes the side on which a line passes an edge, in `f64`. There is no result if an operation rounds.
+//! Computes in `f64` the side on which a line passes an edge. The result is `None` if an operation rounds.
 
 use std::cmp::Ordering;
 
@@ -7,7 +7,6 @@ use glam::Vec3;
 use super::expansion::exact_sum;
 use crate::geometry::Ray;
 
-/// A number, and whether it is the exact result of all operations that led to it.
 #[derive(Clone, Copy)]
 struct Tracked {
     value: f64,
@@ -31,7 +30,7 @@ impl Tracked {
         self.plus(Self { value: -other.value, ..other })
     }
 
-    /// `error` is exact: a product of two differences of `f32` numbers and an `f32` neither overflows nor underflows.
+    /// `error` is exact, because the products in [`side`] neither overflow nor underflow.
     #[inline(always)]
     fn times(self, other: Self) -> Self {
         let value = self.value * other.value;
@@ -40,13 +39,12 @@ impl Tracked {
     }
 }
 
-/// Like [`side`](super::side), but `None` if an operation rounds.
 #[inline(always)]
 pub(super) fn side(ray: &Ray, edge: [Vec3; 2]) -> Option<Ordering> {
     let difference = |corner: Vec3, axis: usize| Tracked::of(corner[axis]).minus(Tracked::of(ray.origin[axis]));
     let term = |axis: usize| {
         let direction = Tracked::of(ray.direction[axis]);
-        // A zero component of the direction makes its term zero, even if the other factor is not exact.
+        // The term is exactly zero, even if the other factor of the term is not exact.
         if direction.value == 0.0 {
             return direction;
         }

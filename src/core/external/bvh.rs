@@ -1,10 +1,8 @@
-//! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH by binned SAH, one triangle per leaf.
+//! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH, built by binned SAH, with one triangle per
+//! leaf.
 //!
-//! The crate has no closest-hit query: it returns candidates, and the caller tests their triangles. The adapter uses
-//! the crate's plain iterator. It wraps the crate's ray: the box test of the wrapper also rejects boxes behind the
-//! nearest hit so far. The iterator visits the left child first, and panics on trees deeper than 32 levels. The crate's
-//! ray (with unit direction and inverse, from its constructor) is prepared before the clock starts. The builder runs on
-//! the caller's threads.
+//! The crate has no closest-hit query. The iterator of the crate yields the triangles with boxes that the ray meets.
+//! `PrunedRay` rejects boxes beyond the nearest hit so far. The iterator panics on trees deeper than 32 levels.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -25,7 +23,7 @@ use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
 use crate::triangle::decided_at_once::decided_at_once;
 
-/// The BVH of the crate `bvh` over the triangle test `T`.
+/// The BVH of the crate `bvh` with the triangle test `T`.
 pub struct SvenstaroBvh<T: TriangleTest> {
     tree: Bvh<f32, 3>,
     shapes: Vec<TriangleBox>,
@@ -35,7 +33,6 @@ pub struct SvenstaroBvh<T: TriangleTest> {
 struct TriangleBox {
     bounds: Aabb<f32, 3>,
     index: u32,
-    /// The trait `BHShape` requires this index.
     node: usize,
 }
 
@@ -55,10 +52,9 @@ impl BHShape<f32, 3> for TriangleBox {
     }
 }
 
-/// A ray that misses every box behind the nearest hit.
 struct PrunedRay<'a> {
     ray: &'a PreparedRay<f32, 3>,
-    /// The distance beyond which boxes are rejected.
+    /// Boxes beyond this distance are rejected. The distance is in units of length, not in lengths of the direction.
     limit: Cell<f32>,
 }
 
@@ -71,7 +67,7 @@ impl IntersectsAabb<f32, 3> for PrunedRay<'_> {
     }
 }
 
-/// Slack for box tests, which compare distances. A distance has more rounding errors than `t`.
+/// A factor that enlarges the limits of box tests against the rounding errors of distances.
 const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 fn point(v: Vec3) -> Point3<f32> {
@@ -83,10 +79,8 @@ fn prepare(ray: &Ray) -> PreparedRay<f32, 3> {
     PreparedRay::new(point(ray.origin), Vector3::new(d.x, d.y, d.z))
 }
 
-/// A ray in the formats of the crate and of the triangle test.
 pub(crate) struct Ready<T: TriangleTest> {
     walked: PreparedRay<f32, 3>,
-    /// Length of the direction.
     length: f32,
     start: Start<T>,
 }
@@ -110,7 +104,7 @@ impl<T: TriangleTest> Prepare for SvenstaroBvh<T> {
             self.leaves.test(shape.index as usize, start, &mut nearest);
             query.limit.set(limit(nearest.t));
         }
-        nearest.answer::<false>(&start.asked)
+        nearest.answer::<false>(&start.original)
     }
 
     #[inline]
@@ -158,7 +152,7 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
         let bounds = |own: &Aabb<f32, 3>| {
             geometry::Aabb::of_points([own.min, own.max].map(|corner| Vec3::from(<[f32; 3]>::from(corner))))
         };
-        // A node stores only its children's boxes, so the box of the root is the union of these two boxes.
+        // An inner node stores only the boxes of its children.
         let root = match self.tree.nodes.first() {
             None => geometry::Aabb::EMPTY,
             Some(BvhNode::Leaf { shape_index, .. }) => bounds(&self.shapes[*shape_index].bounds),
@@ -174,9 +168,10 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
     }
 }
 
-/// The triangle test of the crate: Möller-Trumbore over a unit direction; it culls back faces.
+/// The triangle test of the crate `bvh`: Möller-Trumbore with a unit direction and culling of back faces.
 ///
-/// The adapter tests both windings and divides `t` by the direction's length. Determinants and `t` below epsilon miss.
+/// The adapter tests both windings. The adapter divides the distance by the length of the direction. The test misses at
+/// determinants below [`f32::EPSILON`] and at distances up to [`f32::EPSILON`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SvenstaroTest;
 

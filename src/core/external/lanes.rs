@@ -4,13 +4,13 @@ use glam::Vec3;
 
 use crate::simd::{Lanes, indexed};
 
-/// A block of `triangles`, converted by `make` to the format of the test. Unused lanes get triangles without area.
+/// Unused lanes get triangles without area.
 pub(super) fn block<B, const N: usize>(triangles: &[[Vec3; 3]], make: impl Fn([Vec3; 3]) -> B) -> [B; N] {
     assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
     std::array::from_fn(|lane| make(triangles.get(lane).copied().unwrap_or_default()))
 }
 
-/// The lanes with a `t` in [`from`, `to`], as bits, and the `t` of all lanes. For a miss, `t` returns infinity.
+/// The lanes with a `t` in [`from`, `to`], as bits, and the `t` of all lanes. For a miss, `t` must return infinity.
 #[inline(always)]
 pub(super) fn candidates<const N: usize, L: Lanes<N>>(from: f32, to: f32, t: impl Fn(usize) -> f32) -> (u32, L) {
     let t = L::load(&indexed(t));

@@ -3,16 +3,15 @@ use crate::geometry::{Aabb, Mesh, Ray};
 use crate::traversal::leaf::{Nearest, start};
 use crate::triangle::TriangleTest;
 
-/// The triangles with an area, in mesh order, prepared for the test `T`. The tree of the peer refers to their indices.
+/// The triangles with an area, in mesh order, prepared for the test `T`.
 pub(super) struct Leaves<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
     /// The number of each triangle in the mesh.
     pub ids: Vec<u32>,
 }
 
-/// A ray as received, the same ray prepared for the triangle test, and its interval.
 pub(super) struct Start<T: TriangleTest> {
-    pub asked: Ray,
+    pub original: Ray,
     pub ray: T::Ray,
     pub t_min: f32,
     /// A hit must lie at or before this `t`.
@@ -23,10 +22,9 @@ impl<T: TriangleTest> Start<T> {
     /// `None` if the ray can hit nothing.
     #[inline(always)]
     pub fn new(ray: &Ray) -> Option<Self> {
-        start::<T>(ray).map(|(t_min, nearest)| Self { asked: *ray, ray: T::prepare(ray), t_min, last: nearest.t })
+        start::<T>(ray).map(|(t_min, nearest)| Self { original: *ray, ray: T::prepare(ray), t_min, last: nearest.t })
     }
 
-    /// The state of a search without a hit so far.
     #[inline(always)]
     pub fn nearest<'a>(&self) -> Nearest<T::Depth<'a>> {
         Nearest::until(self.last)
@@ -45,7 +43,7 @@ impl<T: TriangleTest> Leaves<T> {
         self.ids.iter().map(|&id| mesh.triangle_bounds(id))
     }
 
-    /// Tests triangle `index`, and keeps its hit if it is the nearest so far.
+    /// `index` is a position in `ids`.
     #[inline(always)]
     pub fn test<'a>(&'a self, index: usize, start: &Start<T>, nearest: &mut Nearest<T::Depth<'a>>) {
         if let Some(depth) = T::hit(&start.ray, &self.triangles[index], start.t_min, nearest.t) {

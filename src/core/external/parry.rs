@@ -1,10 +1,8 @@
 //! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle per leaf.
 //!
-//! The tree is built by the builder of parry's own mesh shape: top down, binned. The query takes the leaf test as a
-//! closure, and traverses from near to far with early termination. The closure respects `t_min`, which parry's mesh
-//! shape does not support, and culls no back faces. A ray is two vectors. The crate computes the inverse direction in
-//! the timed region, because it accepts no precomputed inverse. parry has no query that stops at the first hit. In
-//! any-hit queries, the adapter's leaf test reports its first hit at t = -infinity: all remaining boxes lie behind it.
+//! The crate computes the inverse direction in the timed region, because it accepts no precomputed inverse. parry has
+//! no query that stops at the first hit. In any-hit queries, the adapter's leaf test reports its first hit at t =
+//! -infinity, so all remaining boxes lie behind this hit.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -35,7 +33,6 @@ fn vector(v: Vec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
 }
 
-/// A ray in the formats of the crate and of the triangle test.
 pub(crate) struct Ready<T: TriangleTest> {
     walked: PreparedRay,
     t_max: f32,
@@ -46,7 +43,6 @@ impl<T: TriangleTest> ParryBvh<T> {
     #[inline]
     fn query<const ANY: bool, O: Observer>(&self, ready: &Ready<T>, observer: &mut O) -> Option<Hit> {
         let Ready { walked, t_max, start } = ready;
-        // The closure is `Fn`, so captured variables that change are cells.
         let (nearest, tests) = (Cell::new(start.nearest()), Cell::new(0));
         self.tree.cast_ray(walked, *t_max, |leaf, _| {
             let mut best = nearest.get();
@@ -59,7 +55,7 @@ impl<T: TriangleTest> ParryBvh<T> {
             best.found().then_some(if ANY { f32::NEG_INFINITY } else { best.t })
         });
         (0..tests.get()).for_each(|_| observer.test(1));
-        nearest.get().answer::<ANY>(&start.asked)
+        nearest.get().answer::<ANY>(&start.original)
     }
 }
 

@@ -1,14 +1,12 @@
-//! Rays in the format of a structure that traces them one by one, converted before the clock starts.
+//! Rays in a structure's own format, converted before the clock starts.
 
 use crate::accel::{Accel, Loaded, Observer};
 use crate::geometry::{Hit, Ray};
 
-/// A structure whose queries take a ray in its own format.
 pub(crate) trait Prepare: Accel {
-    /// A ray in the structure's format. It does not depend on the tree.
     type Ready: Send + Sync;
 
-    /// Converts a ray. Returns `None` if the ray can hit nothing.
+    /// Returns `None` if the ray can hit nothing.
     fn ready(&self, ray: &Ray) -> Option<Self::Ready>;
 
     fn closest<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> Option<Hit>;
@@ -44,12 +42,10 @@ macro_rules! prepared_queries {
 
 pub(crate) use prepared_queries;
 
-/// [`Accel::load`] of a structure that implements [`Prepare`].
 pub(crate) fn load<'a, S: Prepare>(structure: &'a S, rays: &[Ray]) -> Box<dyn Loaded + 'a> {
     Box::new(PreparedBatch { structure, rays: rays.iter().map(|ray| structure.ready(ray)).collect() })
 }
 
-/// A batch of prepared rays; `None` for rays that can hit nothing.
 struct PreparedBatch<'a, S: Prepare> {
     structure: &'a S,
     rays: Vec<Option<S::Ready>>,

@@ -12,7 +12,7 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The box that contains nothing: the identity of [`Aabb::union`].
+    /// The empty box: the identity of [`Aabb::union`].
     pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
     /// The smallest box that contains these points.
@@ -44,7 +44,7 @@ impl Aabb {
         self.max - self.min
     }
 
-    /// The centre, without overflow for any finite box.
+    /// The centre. It does not overflow for a finite box.
     pub fn centre(&self) -> Vec3 {
         self.min * 0.5 + self.max * 0.5
     }
@@ -55,13 +55,13 @@ impl Aabb {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())
     }
 
-    /// The axis of the longest edge; the first one if several are equally long.
+    /// The axis of the longest edge; the first axis if several edges are equally long.
     #[inline]
     pub fn longest_axis(&self) -> usize {
         self.extent().max_position()
     }
 
-    /// Cuts the box at the plane `axis = split` into (below, above). One of them is empty if the plane misses the box.
+    /// Cuts the box at the plane `axis = split` into (below, above). One part is empty if the plane misses the box.
     #[inline]
     pub fn cut(&self, axis: usize, split: f32) -> (Self, Self) {
         let (mut below, mut above) = (*self, *self);
@@ -76,7 +76,6 @@ impl Aabb {
     }
 }
 
-/// Half of the surface area of the box between two corners. A negative extent counts as 0.
 #[inline(always)]
 pub(crate) fn half_area(min: DVec3, max: DVec3) -> f64 {
     let e = (max - min).max(DVec3::ZERO);

@@ -34,7 +34,7 @@ pub enum MeshError {
 const LIMIT: usize = 1 << 30;
 
 impl Mesh {
-    /// Validates the arrays. A structure may then use the mesh without checks.
+    /// Validates the arrays.
     ///
     /// # Errors
     /// See [`Mesh::check`].
@@ -114,7 +114,7 @@ impl Mesh {
         self.degenerate.binary_search(&index).is_ok()
     }
 
-    /// Numbers of the triangles with an area, ascending: the triangles that a structure must contain.
+    /// Numbers of the triangles with an area, ascending. A structure must contain these triangles.
     pub fn solid(&self) -> impl Iterator<Item = u32> + '_ {
         let mut flat = self.degenerate.iter().copied().peekable();
         (0..self.len() as u32).filter(move |&i| flat.next_if_eq(&i).is_none())
@@ -132,13 +132,14 @@ impl Mesh {
     }
 }
 
-/// Whether three points lie exactly on one line: their projections onto all three coordinate planes are collinear.
+/// Whether the projections of three points onto all coordinate planes are exactly collinear.
 fn collinear([a, b, c]: [Vec3; 3]) -> bool {
     if a == b || b == c || c == a {
         return true;
     }
     [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| {
-        // Twice the projected area has six terms. Each is exact: two `f32` have 48 bits together, an `f64` has 53.
+        // Twice the projected area has six terms. Each term is exact, because it has at most 48 bits and an `f64` has
+        // 53.
         let [(ax, ay), (bx, by), (cx, cy)] = [a, b, c].map(|p| (f64::from(p[i]), f64::from(p[j])));
         sum_is_zero([ax * by, -(ay * bx), bx * cy, -(by * cx), cx * ay, -(cy * ax)])
     })
@@ -186,7 +187,6 @@ mod tests {
 
     #[test]
     fn degenerate_triangles_are_counted_exactly() {
-        // Triangles 0 and 2 repeat a vertex. Triangle 3 is a needle with an area.
         let p = Vec3::new(0.1, 0.2, 0.3);
         let d = Vec3::new(0.5, 0.25, 0.125);
         let points = vec![p, p + d, p + d + d, Vec3::Y, Vec3::new(0.1, 0.2, 0.300_000_04)];

@@ -7,8 +7,8 @@ use glam::{Vec3, Vec3A, Vec4};
 /// The points `origin + t * direction` with `t_min <= t < t_max`.
 ///
 /// `direction` may have any length; `t` is measured in lengths of `direction`. A negative `t_min` counts as 0. A ray
-/// hits nothing if its origin or direction is not finite, its direction is zero, or its interval is empty or NaN. A `t`
-/// that rounds to infinity lies beyond the end of every ray.
+/// hits nothing if its origin or direction is not finite, or if its direction is zero. A ray also hits nothing if its
+/// interval is empty or NaN. A `t` that rounds to infinity lies beyond the end of every ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(16))]
 pub struct Ray {
@@ -16,7 +16,7 @@ pub struct Ray {
     pub origin: Vec3,
     /// Start of the interval, inclusive.
     pub t_min: f32,
-    /// Any length except 0.
+    /// The direction, of any length except 0.
     pub direction: Vec3,
     /// End of the interval, exclusive.
     pub t_max: f32,
@@ -44,14 +44,14 @@ impl Ray {
         (if self.t_min > 0.0 { self.t_min } else { 0.0 }, self.t_max)
     }
 
-    /// The end of the interval for exact values of `t`, exclusive. If `t_max` is infinite, the end is 2^128 - 2^103,
-    /// the smallest number that rounds to an infinite `f32`.
+    /// The end of the interval for exact values of `t`, exclusive. If `t_max` is infinite, the end is 2^128 - 2^103.
+    /// This is the smallest number that rounds to an infinite `f32`.
     #[inline(always)]
     pub fn end(&self) -> f64 {
         f64::from(self.t_max).min(UNREPRESENTABLE)
     }
 
-    /// Whether the ray can hit anything. Every structure returns a miss for an invalid ray without a traversal.
+    /// Whether the ray can hit anything. Every structure returns a miss for an invalid ray.
     #[inline(always)]
     pub fn is_valid(&self) -> bool {
         let (origin, direction) = self.vectors();
@@ -61,7 +61,7 @@ impl Ray {
         finite & direction.cmpne(Vec3A::ZERO).any() & lasts
     }
 
-    /// The origin and the direction, loaded in one step each. Converting a `Vec3` would load each component separately.
+    /// Converting a `Vec3` to a `Vec3A` would load each component separately.
     #[inline(always)]
     pub(crate) fn vectors(&self) -> (Vec3A, Vec3A) {
         let Self { origin: o, t_min, direction: d, t_max } = *self;
@@ -75,7 +75,7 @@ impl Ray {
     }
 }
 
-/// The index of a triangle in its mesh. Its bits are stored inverted and never 0, so `Option<Hit>` takes 8 bytes.
+/// The index of a triangle in its mesh. The bits are stored inverted and never 0, so `Option<Hit>` takes 8 bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PrimId(NonZeroU32);
 
@@ -131,7 +131,6 @@ impl Hit {
 mod tests {
     use super::*;
 
-    /// Compares with a naive check of each number separately.
     #[test]
     fn a_ray_is_valid_when_all_its_numbers_are() {
         let numbers = [0.0, -0.0, 1e-45, -1.0, 2.0, f32::MAX, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];

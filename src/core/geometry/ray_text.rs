@@ -1,4 +1,4 @@
-//! Reads and writes rays as text. A ray from a report can be traced again.
+//! Reads and writes rays as text.
 
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
@@ -95,7 +95,7 @@ pub fn numbers(text: &str) -> Result<Vec<f32>, &str> {
     fields.map(|number| number.parse().map_err(|_| number)).collect()
 }
 
-/// Cuts a text after 120 characters for a message, because it may be a whole file in one line.
+/// Shortens a text for a message, because the text may be a whole file in one line.
 fn short(text: &str) -> String {
     const LONGEST: usize = 120;
     match text.char_indices().nth(LONGEST) {

@@ -2,11 +2,11 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
-/// The transform of a model: `world = R * S * p + t`, as in the course for which the student report was written.
+/// The transform of a model: `world = R * S * p + t`.
 ///
 /// `R = Rz * Ry * Rx` with `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and
 /// `Rz = [c s 0; -s c 0; 0 0 1]` (rows). Each matrix rotates in the opposite sense to the usual right-handed rotation.
-/// Sines come from `libm`, and `f64` results are rounded to `f32` once, so every machine computes the same bits.
+/// Sines come from `libm`, and `f64` results are rounded to `f32` once. So every machine computes the same bits.
 ///
 /// A transform that [mirrors](Self::is_mirror) reverses the orientation of triangles; the caller must restore it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,8 +41,8 @@ impl Transform {
 
     /// `R * S * normal` at unit length, or zero if this product is zero.
     ///
-    /// The course transforms normals with the matrix of the points, not with its inverse transpose, so normals tilt the
-    /// wrong way under a non-uniform scale. Its scenes stretch only flat squares, whose normals stay correct.
+    /// The scenes come from a course that transforms normals with the matrix of the points. So normals tilt the wrong
+    /// way under a non-uniform scale. The scenes of the course stretch only flat squares, whose normals stay correct.
     pub fn normal(&self, normal: Vec3) -> Vec3 {
         (self.linear * normal.as_dvec3()).normalize_or_zero().as_vec3()
     }
@@ -52,7 +52,8 @@ fn rows(rows: [[f64; 3]; 3]) -> DMat3 {
     DMat3::from_cols_array_2d(&rows).transpose()
 }
 
-/// Sine and cosine, exact at multiples of 90 degrees. There, `libm` is inexact, because angles in radians are rounded.
+/// Sine and cosine, exact at multiples of 90 degrees. `libm` is inexact at these angles, because angles in radians are
+/// rounded.
 fn sin_cos_degrees(degrees: f32) -> (f64, f64) {
     let degrees = f64::from(degrees) % 360.0;
     match degrees / 90.0 {
@@ -80,7 +81,6 @@ mod tests {
         assert_eq!(turned([-90.0, 0.0, 0.0], Vec3::Y), Vec3::Z);
         assert_eq!(turned([0.0, 180.0, 0.0], Vec3::new(1.0, 2.0, 3.0)), Vec3::new(-1.0, 2.0, -3.0));
         assert_eq!(turned([0.0, 450.0, 0.0], Vec3::X), Vec3::Z);
-        // The rotation about x turns z into y, the rotation about y keeps y, and the rotation about z turns y into x.
         assert_eq!(turned([90.0, 90.0, 90.0], Vec3::Z), Vec3::X);
     }
 
@@ -90,7 +90,6 @@ mod tests {
         assert_eq!(placed.point(Vec3::ONE), Vec3::new(6.0, 23.0, 32.0));
         assert_eq!(placed.normal(Vec3::new(0.0, 0.0, -7.0)), Vec3::X);
         assert_eq!(Transform::IDENTITY.point(Vec3::new(0.1, 0.2, 0.3)), Vec3::new(0.1, 0.2, 0.3));
-        // A normal of length zero does not become NaN.
         assert_eq!(Transform::new(Vec3::ZERO, Vec3::new(1.0, 0.0, 1.0), Vec3::ZERO).normal(Vec3::Y), Vec3::ZERO);
     }
 

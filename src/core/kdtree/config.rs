@@ -4,8 +4,8 @@ use crate::accel::BuildError;
 use crate::build::cells::{CellConfig, Rules};
 use crate::build::sah_cost::CostModel;
 
-/// The options of a [`KdTree`](super::KdTree): `median-kd` is [`REPORT`](Self::REPORT), `sah-kd` is [`SAH`](Self::SAH).
-/// "The report" is the student report sahara reproduces. Options without effect must keep a `REPORT` or `SAH` value.
+/// The options of a [`KdTree`](super::KdTree). "The report" is the student report that sahara reproduces. An option
+/// without effect must have its value in [`REPORT`](Self::REPORT) or in [`SAH`](Self::SAH).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KdConfig {
@@ -17,9 +17,9 @@ pub struct KdConfig {
     pub stop: Stop,
     /// The traversal algorithm.
     pub traversal: Traversal,
-    /// For [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1 (report: 100).
+    /// For [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1.
     pub leaf: u32,
-    /// Whether a node of exactly `leaf` triangles may be split, which the report does not specify.
+    /// Whether a node of exactly `leaf` triangles may be split.
     pub limit: Limit,
     /// For [`Stop::Report`]: a split is discarded if its children share at least this fraction of triangles. In (0, 1].
     pub threshold: f32,
@@ -31,11 +31,12 @@ pub struct KdConfig {
     pub equal: Equal,
     /// When the traversal of a ray stops.
     pub exit: Exit,
-    /// Whether each ray has a small hashed mailbox. A ray does not test a triangle again while its mailbox contains it.
+    /// Whether each ray has a small hashed mailbox. A ray does not test a triangle again while its mailbox contains the
+    /// triangle.
     pub mailbox: bool,
-    /// SAH cost of an inner node. Positive; a higher cost gives larger leaves.
+    /// SAH cost of an inner node. Must be positive.
     pub traversal_cost: f32,
-    /// SAH cost of a block of eight triangles. Positive; a higher cost gives smaller leaves.
+    /// SAH cost of a block of eight triangles. Must be positive.
     pub intersection_cost: f32,
     /// Fraction of its cost that a split saves if it cuts off empty space, in [0, 1). Wald and Havran use 0.2.
     pub empty_bonus: f32,
@@ -70,7 +71,7 @@ pub enum AxisRule {
 }
 
 /// The rule that makes a node a leaf. Every node is also a leaf at depth 8 + 1.3 log2 n, or if its split would exceed
-/// `duplication`. With a median, a node is also a leaf if its split would be the third in a row without progress.
+/// `duplication`. With a median, a third split in a row without progress is replaced by a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stop {
@@ -138,9 +139,9 @@ pub enum Equal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Exit {
-    /// When no nearer hit can follow. No hit is lost.
+    /// When no nearer hit can follow.
     Nearest,
-    /// After the first leaf with a hit at any distance, as the report literally says. This produces wrong pixels.
+    /// After the first leaf with a hit at any distance, as the report literally says. Nearer hits may be lost.
     FirstLeaf,
 }
 
@@ -220,7 +221,6 @@ impl KdConfig {
         self.check_unread()
     }
 
-    /// Rejects an option that has no effect and has neither its `REPORT` nor its `SAH` value.
     fn check_unread(&self) -> Result<(), BuildError> {
         let is_median = !matches!(self.plane, Plane::SahBinned | Plane::SahSweep);
         let asks_costs = !is_median || self.stop == Stop::Sah;

@@ -33,7 +33,7 @@ impl Triangles {
         let corners = self.ids.iter().flat_map(|&id| context.mesh.triangles()[id as usize]);
         let coordinate = |i: u32| context.mesh.positions()[i as usize][axis];
         if context.config.median == Median::Welded {
-            // Corners at the same point count once. Adding 0.0 makes the bits of -0.0 and 0.0 equal.
+            // Adding 0.0 makes the bits of -0.0 and 0.0 equal.
             let bits = |i: u32| context.mesh.positions()[i as usize].to_array().map(|x| (x + 0.0).to_bits());
             let mut points: Vec<([u32; 3], u32)> = corners.map(|i| (bits(i), i)).collect();
             points.sort_unstable();
@@ -44,7 +44,6 @@ impl Triangles {
         }
     }
 
-    /// Whether the cut lies inside the cell and costs less than a leaf. `below` and `above` count triangles.
     fn pays(&self, context: &Context<KdConfig>, state: &NodeState, cut: Cut, below: usize, above: usize) -> bool {
         // Vertices may lie outside the cell, and so may their median.
         let inside = state.cell.min[cut.axis] < cut.plane && cut.plane < state.cell.max[cut.axis];
@@ -53,7 +52,7 @@ impl Triangles {
     }
 }
 
-/// The median. For an even number of values, `rule` selects the lower middle value or the mean of both middle values.
+/// The median of a nonempty list.
 fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
     let (middle, even) = ((values.len() - 1) / 2, values.len().is_multiple_of(2));
     let (_, &mut lower, rest) = values.select_nth_unstable_by(middle, f32::total_cmp);
@@ -102,8 +101,8 @@ impl Content for Triangles {
 
         let discarded = context.config.count == CountOf::Parent && context.rules.discards(matches, self.ids.len());
         let (b, a) = (below.len(), above.len());
-        let dear = context.rules.pays && !self.pays(context, state, cut, b, a);
-        if discarded || dear || !state.affords(b, a) || !state.progresses(context, self.ids.len(), b, a) {
+        let too_expensive = context.rules.pays && !self.pays(context, state, cut, b, a);
+        if discarded || too_expensive || !state.affords(b, a) || !state.progresses(context, self.ids.len(), b, a) {
             return Err(self);
         }
         Ok((Self { ids: below, matches }, Self { ids: above, matches }))

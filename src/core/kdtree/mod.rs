@@ -1,5 +1,4 @@
-//! KD-trees. `median-kd` is the tree of the student report that sahara reproduces, and `sah-kd` is an SAH tree. They
-//! are two configurations of one type.
+//! KD-trees. `median-kd` is the tree of the student report that sahara reproduces. `sah-kd` is an SAH tree.
 
 mod config;
 mod median;

@@ -1,6 +1,6 @@
 use crate::accel::BuildError;
 
-/// A node in 8 bytes. The child below the plane follows its parent. The parent stores the index of the child above.
+/// The child below the plane follows its parent. The parent stores the index of the child above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(super) struct Node {
@@ -19,7 +19,6 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    /// The limits of `tag`, which has 30 bits for the index of a child or the number of references of a leaf.
     pub const OF_NODES: Self = Self { nodes: 1 << 30, references: (1 << 30) - 1 };
 
     pub fn check(&self, nodes: usize, references: usize) -> Result<(), BuildError> {
@@ -42,7 +41,7 @@ impl Node {
         Self { payload: split.to_bits(), tag: above << 2 | axis as u32 }
     }
 
-    /// A leaf. Like `above`, `references` may wrap during a build.
+    /// Like `above`, `references` may wrap during a build.
     pub fn leaf(first: u32, references: u32) -> Self {
         Self { payload: first, tag: references << 2 | Self::LEAF }
     }
@@ -89,7 +88,6 @@ mod tests {
         assert_eq!((last.is_leaf(), last.axis(), last.split(), last.above() as usize), (false, 2, -1.5, nodes - 1));
         let largest = Node::leaf(references as u32 - 1, references as u32);
         assert_eq!((largest.is_leaf(), largest.references() as usize), (true, references));
-        // Numbers beyond the limits wrap.
         assert_ne!(Node::inner(2, -1.5, nodes as u32).above() as usize, nodes);
         assert_ne!(Node::leaf(0, references as u32 + 1).references() as usize, references + 1);
     }

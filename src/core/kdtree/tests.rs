@@ -44,8 +44,8 @@ fn configs() -> Vec<KdConfig> {
     ]
 }
 
-/// A floor of small triangles at y = 0. A ray just above the floor crosses flat cells at a small negative `t`, nearer
-/// to 0 than the slack of plane crossings.
+/// A ray just above the floor crosses flat cells at a small negative `t`. This `t` is nearer to 0 than the slack of
+/// plane crossings.
 #[test]
 fn rays_that_leave_a_flat_floor_test_none_of_its_triangles() {
     let corner = |i: usize, j: usize| Vec3::new(i as f32, 0.0, j as f32);
@@ -69,7 +69,7 @@ fn rays_that_leave_a_flat_floor_test_none_of_its_triangles() {
     }
 }
 
-/// Rays hit parallel triangles, one ulp apart, at `t` near 2^128. Some plane crossings overflow, the hits do not.
+/// At `t` near 2^128, some plane crossings overflow, but the hits do not.
 #[test]
 fn hits_near_the_largest_t_are_found() {
     fn as_brute_force<T: TriangleTest>(mesh: &Arc<Mesh>, rays: &[Ray]) -> Vec<Hit> {
@@ -102,7 +102,7 @@ fn hits_near_the_largest_t_are_found() {
     }
 }
 
-/// A small mesh on a large floor: the first cuts in the middle only separate the floor from empty space.
+/// The first cuts in the middle only separate the floor from empty space.
 #[test]
 fn the_middle_of_a_cell_finds_a_small_mesh_on_a_large_floor() {
     let mut rng = rand_pcg::Pcg32::seed_from_u64(9);

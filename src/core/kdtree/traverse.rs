@@ -1,16 +1,19 @@
 //! One traversal for closest hit and any hit, in two variants: plane intervals and child boxes.
 //!
-//! **No hit is lost.** Let a ray hit a triangle at the point p and the exact parameter t* in its interval. The build
-//! clips references outward or not at all, so some leaf whose closed cell contains p references the triangle. Both
-//! variants visit every leaf whose closed cell contains a point of the ray between t_min and the t of the nearest hit
-//! so far. They skip a child only if its interval is empty or begins after this t. Before this test, they move the
-//! interval outward by more than the rounding error of plane crossings (see [`Line`]). If the crossing at which an
-//! interval begins overflows, plane intervals replace it by a finite one. Child boxes replace an end by infinity if a
-//! crossing before it may overflow. So both variants visit the leaf of p, or they have found another hit with a
-//! computed t before t*. In this case, the other hit is nearer, except for the error of its triangle test. With the
-//! exact test, the computed t of a hit is never below its exact t. So with this test the result is the nearest hit and,
-//! among equally near hits, the one with the lowest number. Only [`Exit::FirstLeaf`] may lose nearer hits, because it
-//! ends at the first leaf with a hit.
+//! **No hit is lost.** Let a ray hit a triangle at the point p and the exact parameter t* in its interval.
+//!
+//! - The build clips references outward or not at all. So some leaf whose closed cell contains p references the
+//!   triangle.
+//! - Both variants skip a child only if its interval is empty or begins after the nearest hit so far. Before this test,
+//!   they move the interval outward by more than the rounding error of plane crossings (see [`Line`]).
+//! - If the crossing at which an interval begins overflows, plane intervals replace the crossing by a finite number.
+//!   Child boxes replace the end of the search by infinity if a crossing before this end may overflow.
+//! - So both variants visit the leaf of p, or have found another hit with a computed t before t*. The other hit is
+//!   nearer, or farther by at most the error of its triangle test.
+//! - With the exact test, the computed t of a hit is never below its exact t. So the result is the nearest hit and,
+//!   among equally near hits, the hit with the lowest number.
+//!
+//! Only [`Exit::FirstLeaf`] may lose nearer hits.
 
 use std::mem::MaybeUninit;
 
@@ -50,16 +53,13 @@ impl<T: TriangleTest> Walk for KdTree<T> {
     }
 }
 
-/// The leaves that a ray still has to search, in traversal order.
-///
-/// Both variants share the code that searches leaves, which is most of the code of a traversal.
 #[expect(clippy::large_enum_variant, reason = "one for each walk, on the stack, with entries that are not initialised")]
 enum Leaves {
     Intervals(Stack<(u32, f32, f32)>),
     Boxes(Stack<(u32, Aabb, f32)>),
 }
 
-/// Nodes to visit later. The entries are uninitialised: initialising them would take as long as a short traversal.
+/// The entries are uninitialised, because initialising them takes as long as a short traversal.
 struct Stack<E> {
     entries: [MaybeUninit<E>; STACK],
     len: usize,
@@ -88,12 +88,11 @@ impl<E: Copy> Stack<E> {
 }
 
 impl Leaves {
-    /// The leaves that the ray crosses in [`t_min`, `t_max`]. `None` if it misses the tree.
     #[inline(always)]
     fn enter<T: TriangleTest>(tree: &KdTree<T>, line: &Line, t_min: f32, t_max: f32) -> Option<Self> {
         Some(match tree.config.traversal {
             Traversal::PlaneIntervals => {
-                // The interval needs no slack before 0, because the sign of a crossing is exact.
+                // The interval needs no slack before 0, because a computed exit is negative only if the exact exit is.
                 let (t0, t1) = line.clip(&tree.bounds, before(t_min).max(0.0), after(t_max))?;
                 Self::Intervals(Stack::with((0, t0, t1)))
             }
@@ -104,7 +103,7 @@ impl Leaves {
         })
     }
 
-    /// The next leaf that the ray enters at or before `end`: the `t` of the nearest hit so far, or the end of the ray.
+    /// `end` is the `t` of the nearest hit so far, or the end of the ray.
     #[inline(always)]
     fn next<T: TriangleTest, O: Observer>(
         &mut self,
@@ -121,7 +120,6 @@ impl Leaves {
     }
 }
 
-/// Finds the next leaf by cutting the ray's interval at each plane.
 #[inline(always)]
 fn by_intervals<O: Observer>(
     stack: &mut Stack<(u32, f32, f32)>,
@@ -147,7 +145,7 @@ fn by_intervals<O: Observer>(
         let t = line.crossing(axis, node.split());
         let (first, second) = if line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
 
-        // The ends of the interval are moved outward by more than twice the error of a crossing, so the crossing needs
+        // The ends of the interval are moved outward by more than twice the error of a crossing. So the crossing needs
         // no slack here. If the crossing is NaN, both comparisons are false and both children get the whole interval.
         if t > t1 {
             at = first;
@@ -162,7 +160,7 @@ fn by_intervals<O: Observer>(
     }
 }
 
-/// Finds the next leaf by testing both child boxes of each node. `end` is a result of [`open_end`].
+/// `end` is a result of [`open_end`].
 #[inline(always)]
 fn by_boxes<O: Observer>(
     stack: &mut Stack<(u32, Aabb, f32)>,
@@ -182,7 +180,8 @@ fn by_boxes<O: Observer>(
             return Some(node);
         }
 
-        // First visit the child that the ray enters first or, if it enters both at once, the child it leaves first.
+        // First visit the child that the ray enters first. If the ray enters both children at once, first visit the
+        // child that it leaves first.
         observer.inner();
         let (below, above) = cell.cut(node.axis(), node.split());
         let (in_below, in_above) = (line.clip(&below, t_min, end), line.clip(&above, t_min, end));

@@ -12,10 +12,9 @@ use crate::traversal::pages;
 use crate::traversal::walk::walked_queries;
 use crate::triangle::{BLOCK, TriangleTest};
 
-/// A binary space partition by axis-aligned planes: 8-byte nodes in depth-first order, blocks of triangles in leaves.
+/// A kd-tree with 8-byte nodes in depth-first order and blocks of triangles in the leaves.
 ///
-/// The configuration selects the planes, the leaves and the traversal. If the duplication of references is bounded, a
-/// build takes O(n log n) time. The tree is the same for every number of threads and cannot be updated.
+/// The tree is the same for every number of threads.
 ///
 /// # References
 /// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic
@@ -42,7 +41,6 @@ impl<T: TriangleTest> Accel for KdTree<T> {
 
     fn build(mesh: &Arc<Mesh>, config: &KdConfig) -> Result<Self, BuildError> {
         let Plan { mut nodes, references } = plan(mesh, config, &Limits::OF_NODES)?;
-        // Turn the references into blocks, leaf by leaf.
         let leaves = nodes.iter().filter(|node| node.is_leaf());
         let count = leaves.map(|leaf| (leaf.references() as usize).div_ceil(BLOCK)).sum();
         let mut blocks = pages::with_capacity(count);
@@ -73,17 +71,16 @@ impl<T: TriangleTest> Accel for KdTree<T> {
     }
 }
 
-/// A tree whose leaves refer to triangles, not blocks.
+/// A tree whose leaves refer to `references` instead of blocks.
 #[derive(Default)]
 pub(super) struct Plan {
     pub nodes: Vec<Node>,
     pub references: Vec<u32>,
 }
 
-/// Grows the tree of `config`, if it stays within the limits.
 pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Plan, BuildError> {
     config.check()?;
-    // Every triangle with an area has at least one reference: reject a mesh that is too large before building.
+    // Every triangle with an area has at least one reference.
     limits.check(1, mesh.solid().count())?;
     let rules = config.rules();
     let plan: Plan = match config.plane {
@@ -97,7 +94,7 @@ pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Pl
             grow(&context, Binned::all(&context))
         }
     };
-    // No number in a node exceeds these totals: if the totals fit, every node fits.
+    // No number in a node exceeds these totals.
     limits.check(plan.nodes.len(), plan.references.len())?;
     Ok(plan)
 }
@@ -115,7 +112,7 @@ impl<C: Content> Tree<C> for Plan {
     }
 
     fn open(&mut self) {
-        // Push a placeholder, which `close` replaces.
+        // `close` replaces this placeholder.
         self.nodes.push(Node::leaf(0, 0));
     }
 

@@ -1,21 +1,17 @@
-//! The filter of the oracle: intersects one line with one triangle in `f64`, with a proven error bound.
+//! Intersects one line with one triangle in `f64`, with a proven error bound.
 //!
 //! # Proof
-//! Let `u` = 2^-53. The inputs are finite `f32`, hence exact in `f64`. Let `a`, `b`, `c` be the corners relative to the
-//! ray's origin. Each component is computed by one subtraction, so it is the true value times (1 + e), |e| <= u.
+//! Let u = 2^-53. The inputs are finite `f32` numbers, which `f64` represents exactly.
 //!
-//! *No operation overflows or underflows.* A component of `a`, of an edge or of the direction is 0 or between 2^-149
-//! and 2^129 in magnitude. A rounded product of two components is 0 or at least 2^-298, and has 53 bits, so it is a
-//! multiple of 2^-350. The difference of two such products is therefore 0 or at least 2^-350. Its product with a third
-//! component is 0 or at least 2^-499. All values are below 2^(129 + 129 + 129 + 3) = 2^390. `f64` allows
-//! 2^-1022 to 2^1024, so every operation has a relative error of at most `u`. A product is 0 only if a factor is 0.
+//! *Range.* A rounded product of two components has 53 bits and is 0 or at least 2^-298. The difference of two such
+//! products is therefore 0 or at least 2^-350. The product with a third component is 0 or at least 2^-499. All values
+//! are below 2^390. Hence no operation overflows or underflows, and every operation has a relative error of at most u.
 //!
-//! *A triple product* `x . cross(y, z)` is the sum of six terms `x_i y_j z_k`. Rounding multiplies each term by at most
-//! eight factors (1 + e): three for the subtractions of its components, two for its products, one for the difference of
-//! two products, two for the sum of three. So the error of the computed sum is at most g P, where P is the sum of the
-//! magnitudes of the six true terms and g = 8u / (1 - 8u) (Higham 2002, section 3.1). The sum of magnitudes, computed
-//! by the same operations, is at least (1 - g) P. Hence the error is at most g / (1 - g) times the *computed* sum of
-//! magnitudes, which is less than 16 u times this sum. The multiplication by 16 u, a power of two, is exact.
+//! *Error bound.* A triple product `x . cross(y, z)` is the sum of six terms `x_i y_j z_k`. Rounding multiplies each
+//! term by at most eight factors (1 + e) with |e| <= u. Let P be the sum of the magnitudes of the terms, and
+//! g = 8u / (1 - 8u). The error of the computed triple product is at most g P (Higham 2002, section 3.1). The computed
+//! sum of magnitudes is at least (1 - g) P. Hence the error is less than 16u times the computed sum. The multiplication
+//! by 16u, a power of two, is exact.
 //!
 //! # References
 //! Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. 1997 (the idea of the
@@ -27,13 +23,12 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::Ray;
 
-/// 16 u, with the u of the proof above.
+/// The factor 16u of the proof above.
 const BOUND: f64 = 16.0 / (1u64 << 53) as f64;
 
-/// 8 u: more than the relative error of four roundings.
+/// Exceeds the relative error of four roundings.
 const OUTWARD: f64 = 8.0 / (1u64 << 53) as f64;
 
-/// The result of the filter for a line and a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Proof {
     Missed,
@@ -50,13 +45,11 @@ pub struct Span {
 }
 
 impl Span {
-    /// The span between computed ends, widened by more than the relative error of four roundings.
     pub fn outward(low: f64, high: f64) -> Self {
         Self { low: low - low.abs() * OUTWARD, high: high + high.abs() * OUTWARD }
     }
 }
 
-/// A triple product and a bound of its error.
 #[derive(Clone, Copy)]
 struct TripleProduct {
     value: f64,
@@ -64,7 +57,6 @@ struct TripleProduct {
 }
 
 impl TripleProduct {
-    /// `x . cross(y, z)`: see the proof above.
     fn of(x: DVec3, y: DVec3, z: DVec3) -> Self {
         let value = x.x * (y.y * z.z - y.z * z.y) + x.y * (y.z * z.x - y.x * z.z) + x.z * (y.x * z.y - y.y * z.x);
         let (x, y, z) = (x.abs(), y.abs(), z.abs());
@@ -72,14 +64,13 @@ impl TripleProduct {
         Self { value, error: BOUND * size }
     }
 
-    /// The sign of the true product, or `None` if the error bound leaves it uncertain.
     fn sign(self) -> Option<Ordering> {
         let is_known = self.value.abs() > self.error || self.error == 0.0;
         is_known.then(|| self.value.partial_cmp(&0.0))?
     }
 }
 
-/// Classifies the line of `ray` by the signed volumes of [`exact::hit`](crate::exact::hit). Inputs must be finite.
+/// Uses the signed volumes of [`exact::hit`](crate::exact::hit). All inputs must be finite.
 pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let corners = corners.map(|p| p.as_dvec3());
@@ -90,7 +81,7 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
         return Proof::Missed;
     }
 
-    // Compute the edges from the absolute corners, so each component has only one rounding.
+    // The error bound requires that each edge component is rounded only once.
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
     let whole = TripleProduct::of(direction, e1, e2);
     match whole.sign() {
@@ -100,12 +91,13 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     }
 }
 
-/// Encloses `numerator / denominator`. The denominator is known not to be 0.
+/// The sign of the denominator must be certain, and not 0.
 fn quotient(numerator: TripleProduct, denominator: TripleProduct) -> Span {
     let sign = denominator.value.signum();
     let (value, denominator) =
         (numerator.value * sign, TripleProduct { value: denominator.value * sign, ..denominator });
-    // The bounds and quotients have one rounding each. Nothing underflows: bounds are multiples of 2^-600 below 2^391.
+    // Each bound and each quotient is rounded once. No quotient underflows, because nonzero bounds lie between 2^-600
+    // and 2^391.
     let (top_low, top_high) = (value - numerator.error, value + numerator.error);
     let (small, large) = (denominator.value - denominator.error, denominator.value + denominator.error);
     let low = top_low / if top_low < 0.0 { small } else { large };
@@ -119,7 +111,6 @@ mod tests {
     use crate::exact;
     use crate::oracle::tests::Numbers;
 
-    /// Checks the filter against exact sums. Returns whether the line hits, or `None` if the filter is undecided.
     fn is_confirmed(ray: &Ray, corners: [Vec3; 3]) -> Option<bool> {
         let truth = exact::hit(ray, corners);
         match classify(ray, corners) {
@@ -152,7 +143,6 @@ mod tests {
         assert!(hits > 1500, "{hits}");
     }
 
-    /// Aims rays at a corner or at the middle of an edge. The filter must be right or undecided.
     #[test]
     fn rays_at_edges_are_decided_right_or_not_at_all() {
         let mut undecided = 0;

@@ -1,6 +1,4 @@
-//! Exact hits of rays, to check the hits of structures. The oracle is never timed.
-//!
-//! [`Oracle`] is fast; [`nearest`] is its brute-force reference, which tests every triangle exactly.
+//! Exact hits of rays, to check the hits of structures.
 
 mod filter;
 mod nearest_search;
@@ -20,7 +18,7 @@ pub use outcome::{DepthRule, Outcome, outcome, ulp};
 pub struct Truth {
     /// The exact `t`.
     pub t: ExactT,
-    /// The numbers of all triangles that are hit at `t`, ascending; at least one.
+    /// The numbers of all triangles that are hit at `t`, ascending and never empty.
     pub ids: Vec<u32>,
 }
 
@@ -30,37 +28,39 @@ impl Truth {
         self.t.round()
     }
 
-    /// Whether the primitive of `hit` is one of `ids`. The `t` of `hit` is ignored.
+    /// Whether the primitive of `hit` is one of `ids`.
     pub fn names(&self, hit: Hit) -> bool {
         self.ids.binary_search(&hit.prim.index()).is_ok()
     }
 
-    /// The rounded `t` and the lowest triangle number: the hit that an exact triangle test must return.
+    /// The rounded `t` and the lowest triangle number. An exact triangle test must return this hit.
     pub fn first(&self) -> (f32, u32) {
         (self.rounded(), self.ids[0])
     }
 }
 
-/// Finds the exact hits of rays in one mesh, in some microseconds per ray.
+/// Finds the exact hits of rays in one mesh.
 ///
-/// It has three stages: a tree of boxes that loses no hit, `f64` arithmetic with a proven error bound, and exact sums
-/// of floats ([`exact`]) if this bound does not decide. The triangle test [`Exact`](crate::triangle::Exact) uses the
-/// same sums. Apart from these sums, the structures that the oracle checks share only the types of meshes, rays and
-/// boxes with it. Unit tests compare the oracle and `Exact` with `exact::rational`.
+/// A tree of boxes selects triangles. Exact sums of floats ([`exact`]) decide the triangles that `f64` arithmetic
+/// leaves undecided.
+///
+/// The triangle test [`Exact`](crate::triangle::Exact) uses the same sums. The unit tests therefore compare the oracle
+/// with independent rational arithmetic.
 pub struct Oracle {
     mesh: Arc<Mesh>,
     tree: tree::Tree,
 }
 
 impl Oracle {
-    /// Builds the tree: some seconds for a million triangles.
+    /// Builds the tree of boxes.
     pub fn new(mesh: &Arc<Mesh>) -> Self {
         Self { mesh: mesh.clone(), tree: tree::Tree::new(mesh) }
     }
 
-    /// The exact nearest hit of `ray` in its half-open interval, with all closed triangles that are hit at this `t`.
+    /// The exact nearest hit of `ray` in its half-open interval.
     ///
-    /// `None` if the ray is invalid or hits nothing. A ray in the plane of a triangle misses this triangle.
+    /// `None` if the ray is invalid or hits no triangle. Triangles are closed. A ray in the plane of a triangle misses
+    /// this triangle.
     pub fn nearest(&self, ray: &Ray) -> Option<Truth> {
         if !ray.is_valid() {
             return None;
@@ -71,7 +71,7 @@ impl Oracle {
     }
 }
 
-/// Like [`Oracle::nearest`], but tests every triangle exactly: for small meshes, and as the reference for [`Oracle`].
+/// Like [`Oracle::nearest`], but tests every triangle exactly.
 pub fn nearest(ray: &Ray, mesh: &Mesh) -> Option<Truth> {
     if !ray.is_valid() {
         return None;

@@ -7,20 +7,17 @@ use super::filter::{Proof, Span, classify};
 use crate::exact::{self, ExactT};
 use crate::geometry::{Mesh, Ray};
 
-/// The search for the nearest hit of one ray.
 pub struct NearestSearch<'a> {
     ray: &'a Ray,
     mesh: &'a Mesh,
-    /// The end of the ray's interval.
     t_max: f64,
     nearest: Option<NearestHit>,
 }
 
-/// The nearest hit so far, with all triangles that are hit at the same `t`.
 struct NearestHit {
     corners: [Vec3; 3],
     span: Span,
-    /// The exact `t`; computed on demand.
+    /// `None` until the exact `t` is needed.
     t: Option<ExactT>,
     ids: Vec<u32>,
 }
@@ -38,9 +35,9 @@ impl<'a> NearestSearch<'a> {
         Some(Truth { t: found.t?, ids: found.ids })
     }
 
-    /// Tests triangle `id`. Returns an upper bound of the nearest `t`: no triangle beyond it can be the nearest.
+    /// Tests triangle `id` and returns an upper bound of the nearest `t`.
     pub fn triangle(&mut self, id: u32) -> f64 {
-        // A triangle with the same corners as the nearest one is hit at the same `t`.
+        // A triangle with the corners of the nearest triangle is hit at the same `t`.
         if let Some(nearest) = self.nearest.as_mut().filter(|n| n.corners == self.mesh.corners(id)) {
             nearest.ids.push(id);
         } else if let Some(mut found) = self.find(id) {
@@ -54,7 +51,6 @@ impl<'a> NearestSearch<'a> {
         self.nearest.as_ref().map_or(self.t_max, |nearest| nearest.span.high)
     }
 
-    /// The hit of triangle `id`, if it lies within the interval of the ray.
     fn find(&self, id: u32) -> Option<NearestHit> {
         let corners = self.mesh.corners(id);
         let (span, t) = match classify(self.ray, corners) {
@@ -80,7 +76,6 @@ impl<'a> NearestSearch<'a> {
 }
 
 impl NearestHit {
-    /// Computes the exact `t` if it is still unknown.
     fn compute_t(&mut self, ray: &Ray) {
         if self.t.is_none() {
             self.t = exact::hit(ray, self.corners);
@@ -88,7 +83,6 @@ impl NearestHit {
         }
     }
 
-    /// The exact order of two hits of one ray: by their spans if these are disjoint, otherwise by exact `t`.
     fn compare(&mut self, other: &mut Self, ray: &Ray) -> Ordering {
         if self.span.high < other.span.low {
             return Ordering::Less;

@@ -6,22 +6,25 @@ use crate::geometry::Hit;
 /// The tolerance for the depth of a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthRule {
-    /// Allowed relative error of a hit on one of the exactly nearest primitives.
+    /// The relative error that is allowed on a nearest primitive.
     right: f64,
-    /// Allowed relative error of a hit on any other primitive.
+    /// The relative error that is allowed on any other primitive.
     other: f64,
-    /// Error that is always allowed, in units in the last place (ulps) of the exact `t` as an `f32`.
+    /// The error that is always allowed, in ulps of the exact `t` as an `f32`.
     ulps: f64,
 }
 
 impl DepthRule {
-    /// Rejects errors that are visible in a picture: more than 1 % on a nearest primitive, 0.1 % on another.
+    /// Rejects errors above 1 % on a nearest primitive, and above 0.1 % on another primitive. Such errors are visible
+    /// in a picture.
     pub const COARSE: Self = Self { right: 1e-2, other: 1e-3, ulps: 0.0 };
 
-    /// Rejects errors that are both above 4 ulps and above 1e-6 of `t`, on any primitive.
+    /// Rejects errors above both 4 ulps and 1e-6 of `t`.
     pub const STRICT: Self = Self { right: 1e-6, other: 1e-6, ulps: 4.0 };
 
-    /// Whether `found` is within the tolerance of the exact `t` >= 0. `right`: the primitive is one of the nearest.
+    /// Whether `found` is within the tolerance of the exact `t`, which must not be negative.
+    ///
+    /// `right` means that the primitive is one of the nearest.
     pub fn allows(self, t: f64, found: f32, right: bool) -> bool {
         let allowed = (t * if right { self.right } else { self.other }).max(ulp(t) * self.ulps);
         // The comparison is false if `found` is NaN.
@@ -46,7 +49,7 @@ pub enum Outcome {
     WrongPrimitive,
 }
 
-/// The outcome of a ray whose exact hit is `truth` if the structure returns `answer`.
+/// Compares the hit `answer` of a structure with the exact hit `truth`.
 pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> Outcome {
     match (truth, answer) {
         (None, None) => Outcome::RightMiss,
@@ -63,7 +66,7 @@ pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> O
     }
 }
 
-/// The distance between neighbouring `f32` at `t`, and at least 2^-149. `t` must not be negative.
+/// The distance between neighbouring `f32` numbers at `t`, which must not be negative.
 pub fn ulp(t: f64) -> f64 {
     let exponent = if t > 0.0 { libm::ilogb(t).clamp(-126, 127) } else { -126 };
     libm::ldexp(1.0, exponent - 23)
@@ -79,7 +82,6 @@ mod tests {
     use crate::geometry::{Mesh, Ray};
     use crate::oracle::Oracle;
 
-    /// The truth of a ray that hits two triangles, at 1 and 1.0001, and of a ray that misses both.
     fn truths() -> [Option<Truth>; 2] {
         let corners = |z: f32| [Vec3::new(-1.0, -1.0, z), Vec3::new(3.0, -1.0, z), Vec3::new(-1.0, 3.0, z)];
         let positions = [corners(1.0), corners(1.0001)].concat();

@@ -6,16 +6,14 @@ use super::*;
 use crate::exact::rational;
 use crate::triangle::tests::{Number, any, grid, point, unit};
 
-/// A source of floats.
 pub struct Numbers {
     random: Pcg32,
     number: Number,
-    /// The power of two that scales the coordinates of points. Small powers make all coordinates denormal.
+    /// A power of two. Small powers make all coordinates denormal.
     scale: f32,
 }
 
 impl Numbers {
-    /// Sources of ordinary numbers, of denormal to very large numbers, of numbers on a grid, and of any floats.
     pub fn all() -> impl Iterator<Item = Self> {
         let powers = [127 << 23, 1 << 10, 1 << 23, 97 << 23, 157 << 23, 253 << 23];
         let scaled = powers.map(|bits| (unit as Number, f32::from_bits(bits)));
@@ -27,7 +25,6 @@ impl Numbers {
         point(&mut self.random, self.number) * self.scale
     }
 
-    /// A random vector. Some of its components may be zeros of either sign.
     pub fn direction(&mut self) -> Vec3 {
         let mut direction = self.point();
         for axis in 0..3 {
@@ -41,7 +38,7 @@ impl Numbers {
     }
 }
 
-/// Compares the oracle with rational arithmetic, which shares no code with the oracle or with `Exact`.
+/// Rational arithmetic shares no code with the oracle or with `Exact`.
 #[test]
 fn rational_arithmetic_agrees() {
     let mut hits = 0;
@@ -72,7 +69,6 @@ fn all_triangles_at_the_nearest_t_are_listed() {
     let truth = oracle.nearest(&ray).unwrap();
     assert_eq!((truth.rounded(), &truth.ids[..]), (1.0, &[1, 3, 4][..]));
     assert_eq!(nearest(&ray, &mesh), Some(truth));
-    // Test both ends of the half-open interval.
     assert_eq!(oracle.nearest(&ray.until(1.0)), None);
     assert!(oracle.nearest(&ray.until(1.0_f32.next_up())).is_some());
     assert_eq!(oracle.nearest(&Ray { t_min: 1.0, ..ray }).unwrap().ids, [1, 3, 4]);

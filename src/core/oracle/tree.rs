@@ -1,26 +1,21 @@
 //! A bounding volume hierarchy that loses no hit.
 //!
 //! # No hit is lost
-//! The box of a node is the exact box of the corners of its triangles: minima and maxima of `f32` are not rounded. A
-//! box is convex, so it contains all points of the closed triangles whose corners it contains.
+//! Minima and maxima of `f32` are not rounded, so the box of a node contains its triangles.
 //!
-//! Let a ray hit a triangle at the exact `t`. For each axis, the coordinate `o + t d` is in the slab `[low, high]` of
-//! each box that contains the triangle. If `d` is 0 or -0, then `o` is in the slab, and comparisons of floats decide
-//! this exactly. Otherwise `t` is between `(low - o) / d` and `(high - o) / d`. Each quotient is computed in `f64` with
-//! one rounding for the difference and one for the division. It neither overflows nor underflows, because it is exactly
-//! 0 or in magnitude between 2^-149 / 2^128 and 2^129 / 2^-149. It is moved outward by four times the error of these
-//! two roundings. The interval of a node is the intersection of the three slabs and of `[t_min, bound]`. It contains
-//! `t` if `bound >= t`. A node is skipped only if its interval is empty: then every hit in it is outside the
-//! interval of the ray or behind the bound. The bound is never less than the exact `t` of the nearest hit so far.
+//! Let a ray hit a triangle in a box at the exact `t`. If a direction component `d` is 0, comparisons of floats decide
+//! exactly. Otherwise `t` is between `(low - o) / d` and `(high - o) / d`. Each quotient has two roundings in `f64`,
+//! and neither overflows nor underflows. [`Span::outward`] moves each quotient outward by more than its error.
+//!
+//! The bound is never less than the exact `t` of the nearest hit so far. Hence a node with an empty interval contains
+//! no nearer hit.
 
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
 
-/// A binary BVH; each child has half of its parent's triangles.
+/// A binary BVH. Each child has half of its parent's triangles.
 pub struct Tree {
-    /// Nodes in depth-first order.
     nodes: Vec<Node>,
-    /// Numbers of the triangles, leaf by leaf.
     ids: Vec<u32>,
 }
 
@@ -31,14 +26,19 @@ struct Node {
 
 enum NodeKind {
     /// The first child is the next node.
-    Inner { second: u32 },
-    /// A range of `ids`.
-    Leaf { first: u32, count: u32 },
+    Inner {
+        second: u32,
+    },
+    Leaf {
+        first: u32,
+        count: u32,
+    },
 }
 
 const LEAF: usize = 4;
 
-/// The capacity of the stack: at most one node per level. After 28 halvings, 2^30 triangles fit in a leaf.
+/// The stack holds at most one node per level. After 28 halvings, the largest mesh (2^30 triangles) is divided into
+/// leaves of 4 triangles.
 const STACK: usize = 32;
 
 impl Tree {
@@ -60,7 +60,7 @@ impl Tree {
             self.ids.extend(boxes.iter().map(|(id, _)| *id));
             return;
         }
-        // Object median along the axis with the widest spread of centres. Any split gives the same hits.
+        // Any split gives the same hits.
         let middle = |b: &Aabb| b.min * 0.5 + b.max * 0.5;
         let axis = Aabb::of_points(boxes.iter().map(|(_, b)| middle(b))).longest_axis();
         let half = boxes.len() / 2;
@@ -71,8 +71,9 @@ impl Tree {
         self.grow(second);
     }
 
-    /// Calls `test` for every triangle that `ray` hits in its interval up to `bound`, and for some that it misses.
-    /// `test` returns the bound for the remaining triangles, which must not increase. `ray` must be valid.
+    /// Calls `test` at least for every triangle that `ray` hits up to `bound`. `ray` must be valid.
+    ///
+    /// `test` returns the bound for the remaining triangles. This bound must not increase.
     pub fn visit(&self, ray: &Ray, mut bound: f64, mut test: impl FnMut(u32) -> f64) {
         let enter = |index: u32, bound: f64| Some((index, near(ray, &self.nodes.get(index as usize)?.bounds, bound)?));
         let mut stack = [(0, 0.0); STACK];
@@ -111,7 +112,7 @@ impl Tree {
     }
 }
 
-/// A lower bound of the `t` in [`t_min`, `bound`] at which `ray` is in the box. `None` proves that no such `t` exists.
+/// A lower bound of the `t` of all hits in the box. `None` proves that the box has no hit up to `bound`.
 fn near(ray: &Ray, bounds: &Aabb, bound: f64) -> Option<f64> {
     let (mut near, mut far) = (f64::from(ray.interval().0), bound);
     let Ray { origin, direction, .. } = ray;

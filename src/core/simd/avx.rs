@@ -3,15 +3,15 @@ use std::arch::x86_64::*;
 use super::avx_double::F64x8;
 use super::{Arithmetic, EightLanes, Lanes};
 
-/// Eight lanes in one AVX register, for machines with AVX2 and FMA. `MASKS` requires AVX-512 VL as well.
+/// Eight lanes in one register, for machines with AVX2 and FMA. `MASKS` also requires AVX-512 F and VL.
 ///
-/// The `unsafe` blocks below are sound, because the type is private to `simd`. Only [`dispatch`](super::dispatch) uses
-/// it, in functions that are compiled for these instructions and called only for a [`Level`](super::Level) that has
-/// them. Loads and stores are unaligned. They access arrays as large as a register unless a note says otherwise.
+/// Only [`dispatch`](super::dispatch) uses this type, in functions that are compiled for these instructions. `dispatch`
+/// calls these functions only for a [`Level`](super::Level) that has the instructions.
+///
+/// Loads and stores need no alignment. Arrays are as large as a register, unless a comment states another size.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx<const MASKS: bool>(__m256);
 
-/// Defines operations that take one instruction on two vectors.
 macro_rules! lanewise {
     ($($name:ident: $instruction:ident),*) => {$(
         #[inline(always)]
@@ -22,7 +22,6 @@ macro_rules! lanewise {
     )*};
 }
 
-/// Defines functions that consist of a few instructions.
 macro_rules! instructions {
     ($(fn $name:ident($($parameter:tt)*) -> $result:ty { $($body:tt)* })*) => {$(
         #[inline(always)]
@@ -83,7 +82,7 @@ impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
     }
 }
 
-/// `MEMBERS[set]`: the lanes of `set` in ascending order, then zeros.
+/// `MEMBERS[set]` lists the lanes of `set` in ascending order, then zeros.
 static MEMBERS: [[u8; 8]; 256] = {
     let mut table = [[0; 8]; 256];
     let mut set = 0;
@@ -107,7 +106,6 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     const FAST: bool = true;
 
-    /// Interleaves the rows in three rounds: in units of 32 bits, then of 64 bits, then of 128 bits.
     #[inline(always)]
     fn transpose([a, b, c, d, e, f, g, h]: [Self; 8]) -> [Self; 8] {
         // SAFETY: the machine has the instruction, see `Avx`.
@@ -142,11 +140,11 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         keys: *mut f32,
         chosen: *mut u32,
     ) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`; by contract eight keys and eight values may be written.
+        // SAFETY: the machine has the instructions, see `Avx`. By contract, eight keys and eight values may be written.
         unsafe {
             let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
             let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
-            // The permutations below use only the three low bits of each index.
+            // A permutation uses only the three low bits of each index.
             let order = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
             let set = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hit, order)) as u32;
             let lanes = if MASKS {
@@ -165,7 +163,7 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     #[inline(always)]
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`; by contract eight values may be written.
+        // SAFETY: the machine has the instructions, see `Avx`. By contract, eight values may be written.
         unsafe {
             let set = self.le(limit);
             let values = _mm256_loadu_si256(values.as_ptr().cast());
@@ -223,9 +221,8 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
     }
 }
 
-/// The lanes of `set` in ascending order, then zeros.
 #[inline(always)]
 fn members(set: u32) -> __m256i {
-    // SAFETY: the machine has the instructions, see `Avx`; a row of the table has the eight bytes that are read.
+    // SAFETY: the machine has the instructions, see `Avx`. A row of the table has the eight bytes that are read.
     unsafe { _mm256_cvtepu8_epi32(_mm_loadl_epi64(MEMBERS[(set & 0xff) as usize].as_ptr().cast())) }
 }

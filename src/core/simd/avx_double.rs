@@ -2,8 +2,9 @@ use std::arch::x86_64::*;
 
 use super::{Arithmetic, indexed};
 
-/// 8 lanes of `f64` in two AVX registers, for machines with AVX2 and FMA: the `Double` of [`Avx`](super::avx::Avx).
-/// Only code over `Avx` lanes constructs it, so the machine has the instructions.
+/// Eight lanes of `f64` in two AVX registers.
+///
+/// Only code over [`Avx`](super::avx::Avx) lanes constructs this type, so the machine has AVX2 and FMA.
 #[derive(Clone, Copy, Debug)]
 pub struct F64x8(pub(super) [__m256d; 2]);
 
@@ -19,7 +20,6 @@ impl F64x8 {
     }
 }
 
-/// Defines operations that take one instruction per register.
 macro_rules! lanewise {
     ($($name:ident: $instruction:ident),*) => {$(
         #[inline(always)]

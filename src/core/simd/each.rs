@@ -1,14 +1,15 @@
 use std::mem::MaybeUninit;
 
-/// Like `array::from_fn`, but always inlined. Without inlining, it would be compiled without the instructions
-/// of a [`Level`](super::Level), and lanes would pass through memory.
+/// Like `array::from_fn`, but always inlined.
+///
+/// A function that is not inlined is compiled without the instructions of a [`Level`](super::Level).
 #[inline(always)]
 pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     let mut results = [const { MaybeUninit::uninit() }; N];
     for (i, result) in results.iter_mut().enumerate() {
         result.write(f(i));
     }
-    // SAFETY: the loop has written all results, and `MaybeUninit<B>` has the layout of `B`.
+    // SAFETY: the loop has written all results. `[MaybeUninit<B>; N]` has the layout of `[B; N]`.
     unsafe { std::ptr::from_ref(&results).cast::<[B; N]>().read() }
 }
 

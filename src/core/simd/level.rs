@@ -1,4 +1,4 @@
-//! The instruction set of a batch, selected at run time.
+//! The SIMD instruction set, selected at run time.
 
 use std::fmt::{self, Display};
 use std::str::FromStr;
@@ -8,10 +8,10 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use super::avx::Avx;
 use super::{EightLanes, Portable};
 
-/// An instruction set that lanes are compiled for. All sets return the same hits, bit for bit.
+/// A SIMD instruction set. All levels return the same hits, bit for bit.
 ///
-/// A level is proof that the machine has its instructions, so [`dispatch`] needs no check. Other crates cannot
-/// construct a level that a machine may lack; they get levels from [`Level::available`], [`Level::current`] or a name.
+/// A value of this type proves that the machine has the instructions. Other crates therefore cannot construct `Avx2` or
+/// `Avx512`:
 ///
 /// ```compile_fail,E0603
 /// let level = sahara_core::simd::Level::Avx512;
@@ -19,12 +19,12 @@ use super::{EightLanes, Portable};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Level {
-    /// Scalar code over arrays, which the compiler may vectorise.
+    /// Scalar code over arrays.
     Portable,
-    /// AVX2, FMA and the bit instructions of the same generation (x86-64-v3).
+    /// AVX2, FMA, BMI1, BMI2, LZCNT and POPCNT.
     #[non_exhaustive]
     Avx2,
-    /// The instructions of `Avx2`, and AVX-512 F and VL, which compress lanes in one step.
+    /// The instructions of `Avx2`, and AVX-512 F and VL.
     #[non_exhaustive]
     Avx512,
 }
@@ -37,20 +37,23 @@ pub struct UnknownLevel {
     known: String,
 }
 
-/// A computation that is written once over eight lanes and runs on any level.
+/// A computation over eight lanes that runs on any level.
 pub trait Kernel {
     /// The result.
     type Output;
 
-    /// Must be `#[inline(always)]`, like the functions on lanes that it calls: only inlined code is compiled for `L`.
+    /// Runs the computation on lanes of type `L`.
+    ///
+    /// This function and the lane functions that it calls must be `#[inline(always)]`. Only inlined code is compiled
+    /// for the instructions of `L`.
     fn run<L: EightLanes>(self) -> Self::Output;
 }
 
 static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
 const UNCHOSEN: u8 = u8::MAX;
 
-/// Whether this build has the level. Each level adds a compiled copy of every search, so a build for one processor has
-/// only the highest level of the processor and the portable level. The feature `all-levels` includes all levels.
+/// Each level adds a compiled copy of every search. A build for one processor therefore has only the portable level and
+/// the highest level of the processor.
 const WITH_AVX2: bool =
     cfg!(all(target_arch = "x86_64", any(feature = "all-levels", not(target_feature = "avx512vl"))));
 const WITH_AVX512: bool = cfg!(all(
@@ -70,14 +73,14 @@ impl Level {
         }
     }
 
-    /// The levels that this machine and this build have, from the lowest to the highest.
+    /// The levels that this machine and this build have, in ascending order.
     pub fn available() -> Vec<Self> {
         Self::ALL.into_iter().filter(|level| level.is_available()).collect()
     }
 
     #[cfg(target_arch = "x86_64")]
     fn is_available(self) -> bool {
-        // Detect all features that the functions `avx2` and `avx512` below enable.
+        // This list must contain all features that the functions `avx2` and `avx512` below enable.
         let bits = is_x86_feature_detected!("bmi1")
             && is_x86_feature_detected!("bmi2")
             && is_x86_feature_detected!("lzcnt")
@@ -96,7 +99,7 @@ impl Level {
         self == Self::Portable
     }
 
-    /// The level that structures use: the argument of [`choose`](Self::choose), by default the highest available level.
+    /// The level that structures use, by default the highest available level.
     #[inline(always)]
     pub fn current() -> Self {
         match CURRENT.load(Ordering::Relaxed) {
@@ -114,7 +117,7 @@ impl Level {
         highest
     }
 
-    /// Makes this the level of the whole process.
+    /// Sets the level of the whole process.
     ///
     /// # Panics
     /// If the level is not available.
@@ -150,18 +153,18 @@ impl FromStr for Level {
 pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     debug_assert!(level.is_available());
     match level {
-        // SAFETY: the machine has the instructions. `available` and `choose` accept a level only after `is_available`
-        // has detected its instructions, and no other code makes a level, except `Portable` (see `Level`).
+        // SAFETY: the machine has the instructions. Levels come only from `available` and `current`, which return a
+        // level only after `is_available` has detected its instructions.
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 if WITH_AVX2 => unsafe { avx2(kernel) },
-        // SAFETY: the machine has the instructions, as explained for `Avx2`.
+        // SAFETY: the machine has the instructions, as for `Avx2`.
         #[cfg(target_arch = "x86_64")]
         Level::Avx512 if WITH_AVX512 => unsafe { avx512(kernel) },
         _ => kernel.run::<Portable<8>>(),
     }
 }
 
-// Not inlined, so each kernel has a separate stack frame.
+// Not inlined: each kernel needs a separate stack frame.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]

@@ -1,4 +1,4 @@
-//! SIMD lanes of `f32` and `f64` behind small traits. Code over lanes gives the same bits for every instruction set.
+//! SIMD lanes of `f32` and `f64` behind small traits.
 
 #[cfg(target_arch = "x86_64")]
 #[macro_use]
@@ -15,8 +15,9 @@ pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;
 
-/// `N` lanes of one type of float. Arithmetic follows IEEE 754, lane by lane, and is never fused, except in the methods
-/// `mul_add_loosely` and `mul_sub_loosely`.
+/// `N` lanes of one type of float.
+///
+/// Arithmetic follows IEEE 754 in each lane. Only `mul_add_loosely` and `mul_sub_loosely` may fuse operations.
 pub trait Arithmetic<const N: usize>: Copy {
     /// The type of one lane.
     type Scalar: Copy + Default;
@@ -38,17 +39,17 @@ pub trait Arithmetic<const N: usize>: Copy {
     fn mul(self, other: Self) -> Self;
     /// Quotients.
     fn div(self, other: Self) -> Self;
-    /// The lesser number of each lane. It is the number of `other` if both are equal or one is NaN.
+    /// The lesser number of each lane. If both numbers are equal or one is NaN, the result is the number of `other`.
     fn min(self, other: Self) -> Self;
-    /// The greater number of each lane. It is the number of `other` if both are equal or one is NaN.
+    /// The greater number of each lane. If both numbers are equal or one is NaN, the result is the number of `other`.
     fn max(self, other: Self) -> Self;
     /// `self`, negated in the lanes where the sign bit of `other` is set.
     fn flip_sign(self, other: Self) -> Self;
-    /// Lanes where `self <= other`, as bits; lane 0 is the lowest bit. A comparison with NaN is false.
+    /// The lanes where `self <= other`, as bits with lane 0 lowest.
     fn le(self, other: Self) -> u32;
-    /// Lanes where `self < other`, as bits. A comparison with NaN is false.
+    /// The lanes where `self < other`, as bits with lane 0 lowest.
     fn lt(self, other: Self) -> u32;
-    /// `self * factor + term`, rounded once or twice, depending on the level. Only for values that no hit depends on.
+    /// `self * factor + term`, rounded once or twice. No hit may depend on the number of roundings.
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
     /// `self * factor - term`, rounded like [`mul_add_loosely`](Self::mul_add_loosely).
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
@@ -67,19 +68,20 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
     fn narrow(wide: Self::Double) -> Self;
 }
 
-/// Eight lanes with comparison masks, and eight lanes of `u32`.
+/// Eight lanes of `f32` with comparison masks, and eight lanes of `u32`.
 pub trait EightLanes: Lanes<8> {
     /// A boolean per lane.
     type Mask: Copy;
     /// A `u32` per lane.
     type Numbers: Copy;
 
-    /// Whether lane operations are vector instructions. If not, code over many lanes is slow.
+    /// Whether lane operations are vector instructions.
     const FAST: bool;
 
-    /// Selects the lanes where `self <= limit`. `order` lists eight lane numbers of 3 bits, the first in the lowest
-    /// bits. In this order, writes the floats of the selected lanes to `keys` and their `values` to `chosen`. Bit `i`
-    /// of the result is set if the `i`-th lane of `order` is selected.
+    /// Writes the lanes where `self <= limit` to `keys`, and their `values` to `chosen`.
+    ///
+    /// `order` contains eight lane numbers of 3 bits, with the first number in the lowest bits. Lanes are written in
+    /// this order. Bit `i` of the result is set if lane number `i` of `order` is written.
     ///
     /// # Safety
     /// `keys` and `chosen` must be valid for writes of eight elements, even if fewer lanes are selected.
@@ -98,13 +100,13 @@ pub trait EightLanes: Lanes<8> {
     /// `chosen` must be valid for writes of eight numbers, even if fewer lanes are selected.
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32;
 
-    /// Lanes where `self <= other`. A comparison with NaN is false.
+    /// The lanes where `self <= other`.
     fn cmp_le(self, other: Self) -> Self::Mask;
-    /// Lanes where `self < other`. A comparison with NaN is false.
+    /// The lanes where `self < other`.
     fn cmp_lt(self, other: Self) -> Self::Mask;
-    /// The mask of the lanes whose bits are set, lane 0 lowest.
+    /// The mask of the lanes whose bits are set, with lane 0 lowest.
     fn mask(bits: u32) -> Self::Mask;
-    /// The lanes of a mask as bits, lane 0 lowest.
+    /// The lanes of a mask as bits, with lane 0 lowest.
     fn bits(mask: Self::Mask) -> u32;
     /// The lanes that are in both masks.
     fn both(one: Self::Mask, other: Self::Mask) -> Self::Mask;
@@ -119,9 +121,9 @@ pub trait EightLanes: Lanes<8> {
     fn splat_number(number: u32) -> Self::Numbers;
     /// The lanes as an array.
     fn store_numbers(numbers: Self::Numbers) -> [u32; 8];
-    /// Lanes where `one <= other`.
+    /// The lanes where `one <= other`.
     fn cmp_le_numbers(one: Self::Numbers, other: Self::Numbers) -> Self::Mask;
-    /// The numbers of `one` in the lanes of `mask`, and the numbers of `other` elsewhere.
+    /// `one` in the lanes of `mask`, `other` elsewhere.
     fn choose_numbers(one: Self::Numbers, other: Self::Numbers, mask: Self::Mask) -> Self::Numbers;
 
     /// Lane `j` of row `i` becomes lane `i` of row `j`.
@@ -135,7 +137,6 @@ mod tests {
     const SPECIAL: [f32; 12] =
         [0.0, -0.0, 1.0, -1.5, 1e-40, 3e38, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 0.1, 7.0, -1e-20];
 
-    /// Pairs of vectors that contain every pair of special floats in the same lane.
     fn specials() -> impl Iterator<Item = ([f32; 8], [f32; 8])> {
         let n = SPECIAL.len();
         (0..n * n).map(move |i| {
@@ -157,7 +158,7 @@ mod tests {
         }
     }
 
-    /// Compresses the lanes where `a <= b`, in `order` and in lane order. Returns sets, keys and two lists of values.
+    /// Returns the sets, the keys and the two lists of values.
     fn taken<L: EightLanes>(a: &[f32; 8], b: &[f32; 8], order: u32) -> ([u32; 2], [Vec<u32>; 3]) {
         let (a, b, values) = (L::load(a), L::load(b), std::array::from_fn(|i| 100 + i as u32));
         let (mut keys, [mut ordered, mut plain]) = ([0.0_f32; 8], [[0_u32; 8]; 2]);

@@ -1,10 +1,9 @@
 use super::{Arithmetic, EightLanes, Lanes, each, indexed};
 
-/// Lanes as an array: the reference for vector instructions, and the fallback on machines without them.
+/// Lanes as an array, without vector instructions.
 #[derive(Clone, Copy, Debug)]
 pub struct Portable<const N: usize, S = f32>([S; N]);
 
-/// Defines operations on two vectors by an operation on one lane.
 macro_rules! lanewise {
     ($all:ident -> $result:ty; $($name:ident: $one:expr,)*) => {$(
         #[inline(always)]
@@ -14,7 +13,6 @@ macro_rules! lanewise {
     )*};
 }
 
-/// Defines functions that are always inlined.
 macro_rules! inlined {
     ($(fn $name:ident($($parameter:tt)*) -> $result:ty { $($body:tt)* })*) => {$(
         #[inline(always)]
@@ -114,7 +112,7 @@ impl EightLanes for Portable<8> {
         for at in 0..8 {
             let lane = (order >> (3 * at) & 7) as usize;
             if self.0[lane] <= limit.0[lane] {
-                // SAFETY: by contract eight keys and eight values may be written, and `count` is below 8.
+                // SAFETY: by contract, eight keys and eight values may be written. `count` is below 8.
                 unsafe {
                     keys.add(count).write(self.0[lane]);
                     chosen.add(count).write(values[lane]);
@@ -131,7 +129,7 @@ impl EightLanes for Portable<8> {
         let (mut set, mut count) = (0, 0);
         for (lane, &value) in values.iter().enumerate() {
             if self.0[lane] <= limit.0[lane] {
-                // SAFETY: by contract eight values may be written, and `count` is below 8.
+                // SAFETY: by contract, eight values may be written. `count` is below 8.
                 unsafe { chosen.add(count).write(value) };
                 set |= 1 << lane;
                 count += 1;

@@ -30,7 +30,7 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
         Self::new(L::load(x), L::load(y), L::load(z))
     }
 
-    /// Vector `lane` of `M` vectors in structure-of-arrays layout, broadcast to every lane.
+    /// Broadcasts vector `lane` of `M` vectors in structure-of-arrays layout.
     ///
     /// # Panics
     /// If `lane` is not below `M`.

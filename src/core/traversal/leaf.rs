@@ -1,4 +1,4 @@
-//! Blocks of triangles in leaves, and the search of a leaf.
+//! Stores the triangles of leaves in blocks, and searches the blocks for hits.
 
 use std::cmp::Ordering;
 
@@ -7,7 +7,6 @@ use crate::geometry::{Hit, Mesh, Ray};
 use crate::simd::EightLanes;
 use crate::triangle::{BLOCK, Depth, TriangleTest};
 
-/// The nearest hit so far or, without a hit, the end of the interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest<D> {
     /// A new hit must lie at or before this `t`.
@@ -16,16 +15,14 @@ pub(crate) struct Nearest<D> {
 }
 
 impl<D: Depth> Nearest<D> {
-    /// The result for a ray that can hit nothing.
     pub const NOTHING: Self = Self { t: 0.0, hit: None };
 
-    /// No hit yet; a hit must lie at or before `last`.
     #[inline(always)]
     pub fn until(last: f32) -> Self {
         Self { t: last, hit: None }
     }
 
-    /// Replaces the hit if the new hit is nearer by `order`, or equally near with a lower triangle number.
+    /// At equal depths, the lower triangle number wins.
     #[inline(always)]
     pub fn offer(&mut self, depth: D, id: u32, order: impl FnOnce(&D, &D) -> Ordering) {
         let better = match &self.hit {
@@ -42,7 +39,7 @@ impl<D: Depth> Nearest<D> {
         self.hit.is_some()
     }
 
-    /// The nearest hit of `ray`. With `ANY`, it is any hit, and its `t` is only an upper bound.
+    /// With `ANY`, the `t` of the hit is only an upper bound.
     #[inline(always)]
     pub fn answer<const ANY: bool>(&self, ray: &Ray) -> Option<Hit> {
         let (depth, id) = self.hit.as_ref()?;
@@ -53,17 +50,14 @@ impl<D: Depth> Nearest<D> {
 /// The triangle number in unused lanes.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// At most eight triangles, tested at once.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub(crate) struct LeafBlock<T: TriangleTest> {
     pub triangles: T::Block<BLOCK>,
-    /// The numbers of the triangles; [`NONE`] in unused lanes.
     pub ids: [u32; BLOCK],
 }
 
 impl<T: TriangleTest> LeafBlock<T> {
-    /// Appends blocks of the triangles `ids` of `mesh`, in this order.
     pub fn fill(mesh: &Mesh, ids: &[u32], blocks: &mut Vec<Self>) {
         blocks.extend(ids.chunks(BLOCK).map(|ids| {
             let mut corners = [[glam::Vec3::ZERO; 3]; BLOCK];
@@ -81,29 +75,27 @@ impl<T: TriangleTest> LeafBlock<T> {
         self.ids.iter().map(|&id| u32::from(id != NONE)).sum()
     }
 
-    /// The bytes of `blocks`: `ids` count as references, all other bytes as triangles.
     pub fn footprint(blocks: &[Self]) -> Footprint {
         let references = blocks.len() * size_of::<[u32; BLOCK]>();
         Footprint { triangles: size_of_val(blocks) - references, references, ..Footprint::default() }
     }
 }
 
-/// A mailbox: the last tested triangle for each of eight hash values (Havran 2000).
+/// Avoids repeated tests of a triangle that several leaves reference (Havran 2000).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mailbox([u32; 8]);
 
 impl Mailbox {
     pub const EMPTY: Self = Self([NONE; 8]);
 
-    /// Returns whether triangle `id` is in the mailbox, and stores it there.
+    /// Returns whether the mailbox already contained `id`.
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
         std::mem::replace(&mut self.0[(id & 7) as usize], id) == id
     }
 }
 
-/// Searches the blocks of a leaf with `count` triangles; `count` may be larger if no observer is active. With `ANY`,
-/// stops at the first block with a hit.
+/// `count` is the number of triangles in `blocks`. A larger `count` makes only the counts in `observer` wrong.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Observer>(
     blocks: &'a [LeafBlock<T>],
@@ -133,9 +125,7 @@ pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Obs
     }
 }
 
-/// Decides the candidates of a block. It is not inlined: candidates are rare, and inlined code would take registers
-/// from the traversal. If `T::decide_at_once` or [`Depth::order`] returns `None` for a candidate, [`settle_closely`]
-/// decides it and all later ones. This tail call is the only call, so no register is saved to the stack.
+/// Not inlined, because inlined code would take registers from the traversal.
 #[inline(never)]
 pub(crate) fn settle<'a, T: TriangleTest>(
     block: &'a LeafBlock<T>,
@@ -145,10 +135,9 @@ pub(crate) fn settle<'a, T: TriangleTest>(
     nearest: &mut Nearest<T::Depth<'a>>,
 ) {
     while candidates != 0 {
-        // `% BLOCK` saves a bounds check.
         let lane = candidates.trailing_zeros() as usize % BLOCK;
         let id = block.ids[lane];
-        // Several leaves may reference a triangle: skip the triangle of the nearest hit.
+        // Several leaves may reference one triangle, so this triangle may already be the nearest hit.
         if nearest.hit.as_ref().is_none_or(|(_, nearest)| *nearest != id) {
             let Some(decided) = T::decide_at_once(ray, &block.triangles, lane, values) else {
                 return settle_closely(block, ray, candidates, values, nearest);
@@ -170,10 +159,9 @@ pub(crate) fn settle<'a, T: TriangleTest>(
     }
 }
 
-/// Up to this number of candidates, deciding them one by one is faster than refining them together.
+/// Up to this number of candidates, separate calls of `decide` are faster than `look_closer`.
 const FEW: u32 = 2;
 
-/// Like [`settle`], for candidates that need the slower functions of the test.
 #[inline(never)]
 fn settle_closely<'a, T: TriangleTest>(
     block: &'a LeafBlock<T>,
@@ -204,9 +192,6 @@ fn settle_closely<'a, T: TriangleTest>(
     }
 }
 
-/// Starts a query: returns `t_min` and a [`Nearest`] without a hit, or `None` if the ray can hit nothing.
-///
-/// The caller prepares the ray: returning a prepared ray would copy values just written, which stalls the processor.
 #[inline(always)]
 pub(crate) fn start<'a, T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth<'a>>)> {
     let (t_min, t_max) = ray.interval();

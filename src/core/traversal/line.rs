@@ -1,4 +1,4 @@
-//! The line of a ray for traversals: crossings of axis-aligned planes, with slack against rounding.
+//! Crossings of a ray with axis-aligned planes, with slack against rounding.
 
 use glam::Vec3A;
 
@@ -7,30 +7,20 @@ use crate::simd::{Lanes, each};
 
 /// The line of a ray, prepared for crossing axis-aligned planes.
 ///
-/// **Slack.** The crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`. Each of the three roundings has
-/// a relative error of at most 2^-24. The crossing has a relative error of at most 3.01 * 2^-24, or an absolute error
-/// of at most 2^-148 if the product underflows. [`before`] and [`after`] move a crossing outward by 8 * 2^-24 of its
-/// value and then by 2^-126. The rounding of the product takes back at most 1.01 * 2^-24 of the value; the rounding of
-/// the sum takes back nothing. More than twice the error of a crossing remains, so a moved crossing compares correctly
-/// with an unmoved one. The sign of a crossing is exact, because a difference of floats has the exact sign. If `d` = 0
-/// and the ray is outside the plane, the crossing is infinite and compares correctly. A crossing is undefined in three
-/// cases: the ray lies in the plane (0 * inf), the inverse of `d` overflows or is too small for full precision, or the
-/// difference to some plane may overflow. An undefined crossing is NaN, which traversals treat as a crossing anywhere.
+/// **Slack.** A crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`, with three roundings. The relative
+/// error is at most 3.01 * 2^-24. If the product underflows, the absolute error is at most 2^-148. [`before`] and
+/// [`after`] move a crossing by more than twice the error. Hence a moved crossing compares correctly with an unmoved
+/// crossing.
 ///
-/// **Ends of the interval.** Let t* be the exact parameter of a hit in [`t_min`, `t_max`). Traversals compare moved
-/// crossings with `t_min` and with an end: first [`TriangleTest::last`](crate::triangle::TriangleTest::last), later the
-/// bound of the nearest hit. If the test is exact, t* does not exceed this end. If the test rounds t* to the nearest
-/// float, the rounded t* does not exceed the end, and t* exceeds the end by at most 2^-24 of t*. Consider a box that
-/// contains the hit. The ray enters it at an exact parameter e <= t* and leaves it at f >= t*. The computed entry,
-/// moved by `before`, precedes e by at least 3.9 * 2^-24 of e, so it is not beyond the end. The computed exit, moved by
-/// `after`, is not before f, so it is not before `t_min`.
+/// **Undefined crossings.** A crossing is NaN if the ray lies in the plane. A crossing is also NaN if `1 / d` overflows
+/// or is subnormal, or if `s - o` may overflow. Traversals treat NaN as a crossing at an unknown `t`.
 ///
-/// **Overflow.** Let M be the largest float. A crossing is computed as infinity only if its exact value exceeds
-/// (1 - 2.6 * 2^-24) M. `before` leaves infinity unchanged. An infinite entry would be beyond every finite end, and
-/// beyond the computed crossings of planes that the ray meets later. Traversals therefore make the entry finite with
-/// [`finite_entry`], or they make the end infinite: with [`open_end`], or with `after`, which turns every end above
-/// (1 - 7.5 * 2^-24) M into infinity. If the end stays finite, every box that the ray enters before the end has a
-/// finite entry. An infinite exit is correct.
+/// **Ends of the interval.** A triangle test may round `t` down by up to 2^-24 `t`. The exact `t` of a hit may then
+/// exceed the end of the interval. [`before`] puts an entry at least 3.9 * 2^-24 `t` before the exact entry. Hence the
+/// entry into a box with a hit is not beyond the end.
+///
+/// **Overflow.** A crossing near the largest float may be computed as infinity, beyond every finite end. Traversals
+/// therefore make the entry finite with [`finite_entry`], or the end infinite with [`open_end`] or [`after`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -42,52 +32,51 @@ const TINY: f32 = f32::MIN_POSITIVE;
 const AFTER: f32 = 1.0 + 4.0 * f32::EPSILON;
 const BEFORE: f32 = 1.0 - 4.0 * f32::EPSILON;
 
-/// Moves a computed parameter backward: the result is not after the exact parameter if `t` is not negative.
+/// If the computed crossing `t` is not negative, the result is not after the exact crossing.
 #[inline(always)]
 pub(crate) fn before(t: f32) -> f32 {
     t * BEFORE - TINY
 }
 
-/// Moves a computed parameter forward: the result is not before the exact parameter if `t` is not negative.
+/// If the computed crossing `t` is not negative, the result is not before the exact crossing.
 #[inline(always)]
 pub(crate) fn after(t: f32) -> f32 {
     t * AFTER + TINY
 }
 
-/// [`before`] of the largest finite float: the largest finite result of `before`.
+/// The largest finite result of [`before`].
 const LATEST: f32 = f32::MAX * BEFORE - TINY;
 
-/// Returns `t`, a crossing moved by [`before`], or [`LATEST`] if it overflowed. It is not after the exact crossing.
+/// `t` must be a crossing moved by [`before`].
 #[inline(always)]
 pub(crate) fn finite_entry(t: f32) -> f32 {
     if t < LATEST { t } else { LATEST }
 }
 
-/// The end `t` of an interval, or infinity if a crossing before `t` may be computed as infinity.
+/// Returns `t`, or infinity if a crossing before `t` may be computed as infinity.
 #[inline(always)]
 pub(crate) fn open_end(t: f32) -> f32 {
     if t < LATEST { t } else { f32::INFINITY }
 }
 
-/// [`after`] in every lane.
 #[inline(always)]
 pub(crate) fn lanes_after<L: Lanes<8>>(t: L) -> L {
     t.mul(L::splat(AFTER)).add(L::splat(TINY))
 }
 
-/// The largest magnitude of a coordinate of a box on each axis; infinite for an empty box.
+/// The result is infinite for an empty box.
 pub(crate) fn farthest(bounds: &Aabb) -> Vec3A {
     Vec3A::from(bounds.min.abs().max(bounds.max.abs()))
 }
 
-/// The inverse of each direction component, or NaN if it overflows or lacks full precision. `farthest` bounds the
-/// coordinates of planes: if the difference of a plane and the origin may overflow, all three inverses are NaN.
+/// Inverses that are subnormal or overflow become NaN. The inverse of 0 is infinite.
+///
+/// `farthest` bounds the coordinates of all planes. If the difference of a plane and the origin may overflow, all
+/// inverses are NaN.
 #[inline(always)]
 pub(crate) fn inverses(ray: &Ray, farthest: Vec3A) -> [f32; 3] {
-    // Compute all three axes at once, because the preparation takes much of the time of a ray.
     let (origin, direction) = ray.vectors();
     if !(origin.abs() + farthest).is_finite() {
-        // This is also the result for an empty box, whose `farthest` is infinite.
         return [f32::NAN; 3];
     }
     let inverse = direction.recip();
@@ -97,39 +86,35 @@ pub(crate) fn inverses(ray: &Ray, farthest: Vec3A) -> [f32; 3] {
 }
 
 impl Line {
-    /// Prepares the line for planes that cut the box `bounds`, and for the planes of its faces.
+    /// All planes must meet `bounds`.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb) -> Self {
         let backward = each(&ray.direction.to_array(), |x| x.is_sign_negative());
         Self { origin: ray.origin.to_array(), inverse: inverses(ray, farthest(bounds)), backward }
     }
 
-    /// The parameter at which the line crosses the plane `axis = split`, or NaN if the crossing is undefined.
+    /// The result is NaN if the crossing is undefined, see [`Line`].
     #[inline(always)]
     pub fn crossing(&self, axis: usize, split: f32) -> f32 {
         (split - self.origin[axis]) * self.inverse[axis]
     }
 
-    /// Whether the line meets the upper side of a plane perpendicular to `axis` first.
     #[inline(always)]
     pub fn backward(&self, axis: usize) -> bool {
         self.backward[axis]
     }
 
-    /// Clips [`t0`, `t1`] to the closed box, with slack. Returns `None` if the line certainly misses the box in this
-    /// interval. `t1` must be a result of [`open_end`] or [`after`], because the clipped interval begins at infinity if
-    /// a crossing overflows.
+    /// Clips [`t0`, `t1`] to the closed box, with slack. `None` proves that the line misses the box in this interval.
     ///
-    /// A line that is parallel to two faces and between their planes enters at -inf and leaves at +inf. A line in the
-    /// plane of a face crosses it at NaN, which leaves the interval unchanged.
+    /// `t0` must not be negative. An entry that overflows is infinite, so `t1` must be a result of [`open_end`] or
+    /// [`after`]. A crossing that is NaN leaves the interval unchanged.
     #[inline(always)]
     pub fn clip(&self, cell: &Aabb, mut t0: f32, mut t1: f32) -> Option<(f32, f32)> {
         for axis in 0..3 {
             let (low, high) = (self.crossing(axis, cell.min[axis]), self.crossing(axis, cell.max[axis]));
             let (near, far) = if self.backward[axis] { (high, low) } else { (low, high) };
-            // A negative entry lies before t0, so the direction of its slack does not matter. A box with a negative
-            // exit is missed. This exit needs no slack, because the sign of a crossing is exact: a ray that starts just
-            // above a flat floor and moves away does not enter the floor's box.
+            // A negative entry lies before `t0`, so its slack does not matter. A negative exit needs no slack, because
+            // the exact exit is also negative.
             let (near, far) = (before(near), if far < 0.0 { far } else { after(far) });
             t0 = if near > t0 { near } else { t0 };
             t1 = if far < t1 { far } else { t1 };
@@ -174,7 +159,6 @@ mod tests {
         }
     }
 
-    /// Compares with a naive version that treats each axis separately.
     #[test]
     fn inverses_are_those_of_each_axis() {
         let numbers =
@@ -204,12 +188,11 @@ mod tests {
         }
     }
 
-    /// Measures the slack that rounding leaves, in units of 2^-24.
+    /// `least` is in units of 2^-24.
     #[test]
     fn the_slack_is_more_than_two_crossings_are_off() {
         let mut least = f64::INFINITY;
         for i in 0..200_000_u32 {
-            // Numbers of all exponents and many significands.
             let t = f32::from_bits((1 + i % 253) << 23 | i.wrapping_mul(2_654_435_761) >> 9);
             let units = |moved: f32| (f64::from(moved) / f64::from(t) - 1.0).abs() * f64::from(1 << 24);
             assert!(before(t) < t && t < after(t), "{t:e}");
@@ -218,7 +201,6 @@ mod tests {
         assert!(least > 2.0 * 3.01, "{least}");
     }
 
-    /// Crossings around the largest float: entries, exits and ends are on the right side of the exact parameter.
     #[test]
     fn crossings_that_overflow_are_on_the_right_side() {
         let below = |x: f32, ulps: u32| f32::from_bits(x.to_bits() - ulps);
@@ -228,7 +210,6 @@ mod tests {
             let exact = f64::from(f32::MAX) * (1.0 - f64::from(i % 100) * 0.1 * 2.0_f64.powi(-24));
             let origin = 1e29 * (i % 7) as f32;
             let split = (f64::from(origin) + exact * f64::from(d)) as f32;
-            // The difference of these two floats is exact in `f64`.
             let exact = (f64::from(split) - f64::from(origin)) / f64::from(d);
             let crossing = (split - origin) * (1.0 / d);
             infinite += u32::from(crossing == f32::INFINITY);
@@ -244,10 +225,8 @@ mod tests {
 
     #[test]
     fn undefined_crossings_keep_the_interval() {
-        // These directions are too short to invert.
         assert_eq!(clip([-2.0, 0.5, 0.5], [1e-40, 0.0, 0.0]), Some((0.0, f32::MAX)));
         assert!(clip([0.5, 0.5, 0.5], [1e-40, 1e-42, -1e-41]).is_some());
-        // In the first assertion, a difference overflows. In the second, the inverse lacks full precision.
         let large = Aabb { min: Vec3::splat(-3e37), max: Vec3::splat(3e37) };
         let ray = Ray::new(Vec3::new(-3.39e38, 0.0, 0.0), Vec3::new(1e38, 0.0, 0.0));
         assert_eq!(Line::new(&ray, &large).clip(&large, 0.0, f32::MAX), Some((0.0, f32::MAX)));

@@ -1,4 +1,4 @@
-//! Shared code of the traversals: leaf blocks, plane crossings, the choice of the SIMD level, memory in huge pages.
+//! Code that the traversals of several structures share.
 
 pub(crate) mod leaf;
 pub(crate) mod line;

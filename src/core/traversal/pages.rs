@@ -1,25 +1,23 @@
 //! Memory for large arrays in huge pages, and prefetching.
 
-/// Allocates memory for `len` values that are read in random order, in huge pages if possible. With 4 KiB pages, a
-/// traversal of a few megabytes misses the TLB at nearly every node. Huge pages are requested only on Linux.
+/// Requests huge pages from Linux. With 4 KiB pages, a traversal misses the TLB at nearly every node.
 pub(crate) fn with_capacity<T>(len: usize) -> Vec<T> {
     let values = Vec::with_capacity(len);
     advise(values.as_ptr(), len * size_of::<T>());
     values
 }
 
-/// Copies `values` to memory that [`with_capacity`] allocates.
 pub(crate) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
     let mut moved = with_capacity(values.len());
     moved.extend_from_slice(&values);
     moved
 }
 
-/// Prefetches the cache line at `at`, which may be any address.
+/// Prefetches the cache line at `at`. Any address is allowed.
 #[inline(always)]
 pub(crate) fn fetch(at: *const u8) {
     #[cfg(target_arch = "x86_64")]
-    // SAFETY: a prefetch has no visible effect and faults at no address; SSE is part of x86-64.
+    // SAFETY: a prefetch has no visible effect and faults at no address. SSE is part of x86-64.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         _mm_prefetch::<_MM_HINT_T0>(at.cast());
@@ -31,13 +29,13 @@ pub(crate) fn fetch(at: *const u8) {
 #[cfg(target_os = "linux")]
 fn advise<T>(start: *const T, bytes: usize) {
     use std::ffi::{c_int, c_void};
-    // SAFETY: the declaration agrees with `madvise` in the C library of Linux: a pointer, a `size_t`, an `int`.
+    // SAFETY: the declaration agrees with `madvise` in the C library of Linux.
     unsafe extern "C" {
         fn madvise(start: *mut c_void, bytes: usize, advice: c_int) -> c_int;
     }
     const MADV_HUGEPAGE: c_int = 14;
     const PAGE: usize = 4096;
-    // SAFETY: this advice changes no values, and it covers only whole pages of memory that the caller has allocated.
+    // SAFETY: the advice changes no values. The advised pages lie in the memory that `with_capacity` has allocated.
     unsafe {
         let first = start.addr().next_multiple_of(PAGE);
         let end = (start.addr() + bytes) / PAGE * PAGE;
@@ -50,7 +48,6 @@ fn advise<T>(start: *const T, bytes: usize) {
 #[cfg(not(target_os = "linux"))]
 fn advise<T>(_: *const T, _: usize) {}
 
-/// Whether Linux lists the memory of `values` as advised to use huge pages.
 #[cfg(test)]
 fn are_large<T>(values: &[T]) -> bool {
     let at = values.as_ptr().addr() + size_of_val(values) / 2;
@@ -65,7 +62,6 @@ fn are_large<T>(values: &[T]) -> bool {
     flags.next().is_some_and(|line| line.split_whitespace().any(|flag| flag == "hg"))
 }
 
-/// Asserts that the memory of `values` is advised to use huge pages, if the system accepts such advice.
 #[cfg(test)]
 pub(crate) fn assert_large<T>(values: &[T]) {
     let mut probe = with_capacity::<u64>(1 << 20);

@@ -3,13 +3,12 @@ use glam::{DVec3, Vec3};
 use super::TriangleTest;
 use crate::simd::{LaneVec3, Lanes, indexed};
 
-/// Baldwin-Weber, in `f32`: the test transforms the ray into the space of the unit triangle.
+/// The Baldwin-Weber test in `f32`. It transforms the ray into the space of the unit triangle.
 ///
-/// Guarantees: the least arithmetic of all tests. Not guaranteed: accuracy and closed meshes. The transformation is
-/// relative to the world's origin, so errors grow with the distance from it: at 1e3 scene sizes, half of the hits are
-/// lost. Closed meshes may leak at edges. 48 bytes per triangle.
+/// Closed meshes may leak at edges. Errors grow with the distance from the world's origin.
 ///
-/// One column of a matrix is trivial. It differs per lane, so a block stores all twelve numbers, rounded from `f64`.
+/// One column of each matrix is (0, 0, 1). The position of this column differs per triangle, so a block stores all
+/// twelve numbers.
 ///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics
@@ -17,7 +16,7 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BaldwinWeber;
 
-/// The rows of the matrix that transforms a point to its barycentrics and its height above the plane.
+/// Each matrix transforms a point to two barycentrics and a scaled height above the plane.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ToUnit<const N: usize> {
@@ -27,7 +26,7 @@ pub struct ToUnit<const N: usize> {
 
 const _: () = assert!(size_of::<ToUnit<1>>() == 48);
 
-/// The rows and translations of one triangle. If the triangle has no area, all numbers are zero, and no ray hits it.
+/// All numbers are zero for a triangle without area. Then `t` is NaN, and no ray hits the triangle.
 fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (edge1, edge2) = (b - a, c - a);
@@ -37,7 +36,7 @@ fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
     if det == 0.0 {
         return [(DVec3::ZERO, 0.0); 3];
     }
-    // The third basis vector is arbitrary. An axis makes one column of the matrix trivial.
+    // Any third basis vector outside the plane is correct.
     let free = DVec3::AXES[longest];
     [edge2.cross(free), free.cross(edge1), normal].map(|row| (row / det, -row.dot(a) / det))
 }

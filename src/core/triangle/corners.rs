@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use crate::simd::{LaneVec3, Lanes, indexed};
 
-/// The corners of `N` triangles, coordinate by coordinate: 36 bytes per triangle, without rounding.
+/// The corners of `N` triangles in structure-of-arrays layout.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Corners<const N: usize>([[[f32; N]; 3]; 3]);
@@ -10,7 +10,7 @@ pub struct Corners<const N: usize>([[[f32; N]; 3]; 3]);
 const _: () = assert!(size_of::<Corners<1>>() == 36);
 
 impl<const N: usize> Corners<N> {
-    /// Stores at most `N` triangles. Unused lanes contain triangles whose corners all lie at the origin.
+    /// Stores at most `N` triangles. All corners of unused lanes lie at the origin.
     ///
     /// # Panics
     /// If there are more than `N` triangles.
@@ -39,7 +39,6 @@ impl<const N: usize> Corners<N> {
         [LaneVec3::splat_lane(a, lane), LaneVec3::splat_lane(b, lane), LaneVec3::splat_lane(c, lane)]
     }
 
-    /// One coordinate of the three corners.
     #[inline(always)]
     pub(super) fn axis<L: Lanes<N>>(&self, axis: usize) -> [L; 3] {
         let [a, b, c] = &self.0;
@@ -53,7 +52,6 @@ impl<const N: usize> Corners<N> {
     }
 }
 
-/// One triangle of a block; its corners are read only on demand.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneCorners<'a> {
     coordinates: &'a [f32],
@@ -61,12 +59,11 @@ pub struct LaneCorners<'a> {
 }
 
 impl LaneCorners<'_> {
-    /// The coordinates of the three corners, one after the other.
     #[inline(always)]
     pub(super) fn coordinates(&self) -> [f32; 9] {
         let lanes = self.coordinates.len() / 9;
         debug_assert!(self.lane < lanes);
-        // SAFETY: `Corners::place`, the only constructor, stores nine rows of `lanes` floats and checks the lane.
+        // SAFETY: `Corners::place` is the only constructor. It stores nine rows of `lanes` floats and checks the lane.
         indexed(|row| unsafe { *self.coordinates.get_unchecked(row * lanes + self.lane) })
     }
 

@@ -1,4 +1,4 @@
-/// Defines the common items of tests whose first stage decides all hits.
+/// Defines common items of triangle tests whose first stage decides all hits.
 macro_rules! decided_at_once {
     () => {
         type First<const N: usize, L: $crate::simd::Lanes<N>> = L;
@@ -17,7 +17,6 @@ macro_rules! decided_at_once {
     };
 }
 
-/// Like `decided_at_once`, for tests that use rays unchanged.
 macro_rules! decided_on_rays {
     () => {
         type Ray = (glam::Vec3, glam::Vec3);
@@ -31,7 +30,6 @@ macro_rules! decided_on_rays {
     };
 }
 
-/// Like `decided_on_rays`, for tests that also use corners unchanged.
 macro_rules! decided_on_corners {
     () => {
         type Block<const N: usize> = $crate::triangle::Corners<N>;
@@ -44,7 +42,7 @@ macro_rules! decided_on_corners {
     };
 }
 
-/// Like `decided_on_corners`, for tests in `f64`. `$solve` returns the lanes that the line hits, and `t` of all lanes.
+/// `$solve` returns the lanes that the line hits, as bits, and the `t` of all lanes.
 macro_rules! decided_in_f64 {
     ($solve:ident) => {
         decided_on_corners!();
@@ -59,7 +57,7 @@ macro_rules! decided_in_f64 {
             let wide = |v| $crate::simd::LaneVec3::<N, L>::splat(v).widen();
             let corners = $crate::simd::each(&block.load::<L>(), |corner| corner.widen());
             let (inside, t) = $solve(wide(origin), wide(direction), corners);
-            // Compare with `from` before rounding, which may turn a small negative `t` into zero.
+            // Compare before the rounding, because rounding may turn a small negative `t` into zero.
             let inside = inside & L::splat(from).widen().le(t);
             let t = L::narrow(t);
             (inside & t.le(L::splat(to)), t)

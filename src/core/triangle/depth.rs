@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// The length of [`Depth::inputs`]: corners, origin, direction, and the distance between the bounds of `t`.
+/// The length of [`Depth::inputs`]. The first nine values are the coordinates of the corners.
 pub const INPUTS: usize = 16;
 /// The index of the origin's first coordinate in [`Depth::inputs`].
 pub const ORIGIN: usize = 9;
@@ -13,37 +13,38 @@ pub const DIRECTION: usize = 12;
 /// The index of the distance between the bounds of `t` in [`Depth::inputs`].
 pub const BETWEEN_BOUNDS: usize = 15;
 
-/// The position of a hit along its ray, as exactly as the triangle test knows it.
+/// The position of a hit along its ray, in the precision of the triangle test.
 pub trait Depth: Copy {
-    /// The order along the ray, or `None` if it depends on data of the ray. Then
-    /// [`TriangleTest::order`](super::TriangleTest::order) decides.
+    /// The order along the ray. If `None`, [`order_closely`](super::TriangleTest::order_closely) must decide.
     fn order(&self, other: &Self) -> Option<Ordering>;
 
     /// The depth of a hit at `t`, or `None` if depths of this type contain more than `t`.
     fn of(t: f32) -> Option<Self>;
 
-    /// The `t` to return for a hit of `ray`: the float nearest to the depth.
+    /// The `t` of the hit, rounded to `f32`. `ray` must be the ray of the hit.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether [`t`](Self::t) takes a further computation, which [`ts`](Self::ts) does faster for eight hits at once.
+    /// Whether [`t`](Self::t) needs further computation. If true, the type must implement [`inputs`](Self::inputs) and
+    /// [`ts`](Self::ts).
     const LATE: bool = false;
 
-    /// The inputs of `ts` for a hit of `ray`: corners, origin, direction, and the distance between the bounds.
+    /// The inputs of [`ts`](Self::ts) for a hit of `ray`.
     #[inline(always)]
     fn inputs(&self, _ray: &Ray) -> [f32; INPUTS] {
         unreachable!("a depth with `LATE` implements `inputs`")
     }
 
-    /// The [`t`](Self::t) of hits, from their [`inputs`](Self::inputs). `which`: the lanes that have a hit, as bits.
+    /// Computes [`t`](Self::t) for eight hits, with one hit per lane of `inputs`. Bit `i` of `which` is set if lane `i`
+    /// has a hit.
     #[inline(always)]
     fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
         unreachable!("a depth with `LATE` implements `ts`")
     }
 
-    /// An upper bound of `t`, as a float. A traversal can skip everything beyond it.
+    /// An upper bound of `t`.
     fn bound(&self) -> f32;
 
-    /// A lower bound of `t`, as a float.
+    /// A lower bound of `t`.
     fn least(&self) -> f32;
 }
 
@@ -52,7 +53,6 @@ pub(crate) fn last_bits<D: Depth>(level: Level, inputs: &[[f32; 8]; INPUTS], whi
     dispatch(level, LastBits::<D> { inputs, which, depth: PhantomData })
 }
 
-/// Runs [`Depth::ts`] as a separate kernel. Inlined, it would take registers from the traversal.
 struct LastBits<'a, D> {
     inputs: &'a [[f32; 8]; INPUTS],
     which: u32,
@@ -68,7 +68,7 @@ impl<D: Depth> Kernel for LastBits<'_, D> {
     }
 }
 
-/// The depth of tests that compute `t` as a float. It is never NaN.
+/// This depth is never NaN, so `order` never returns `None`.
 impl Depth for f32 {
     #[inline(always)]
     fn of(t: f32) -> Option<f32> {

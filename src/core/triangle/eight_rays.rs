@@ -21,11 +21,13 @@ pub struct EightRays<L> {
 pub struct EightHits<L: EightLanes> {
     /// The rays that hit the triangle within their intervals.
     pub met: L::Mask,
-    /// The rays without a hit in their interval up to the `to` of `meet_eight`. Test rays in neither mask individually.
-    /// [One-stage tests](super::TriangleTest::ONE_STAGE) leave `missed` empty: all rays outside `met` miss.
+    /// The rays without a hit up to the `to` of [`meet_eight`](super::TriangleTest::meet_eight).
+    ///
+    /// Rays in neither mask must be tested individually. A [one-stage test](super::TriangleTest::ONE_STAGE) leaves
+    /// `missed` empty. Then all rays outside `met` miss.
     pub missed: L::Mask,
-    /// Lower bounds of `t` of the rays that hit.
+    /// Lower bounds of `t` for the rays in `met`.
     pub low: L,
-    /// Upper bounds of `t` of the rays that hit.
+    /// Upper bounds of `t` for the rays in `met`.
     pub high: L,
 }

@@ -1,6 +1,6 @@
-//! Triangle tests. Structures share them: for one triangle, a test gives the same bits of `t` in every structure.
+//! Triangle tests for all structures.
 //!
-//! To add a test, write a file here that implements [`TriangleTest`]. Add the test to the lists of `offered.rs` and
+//! To add a test, implement [`TriangleTest`] in a file of this folder. Add the test to the lists of `offered.rs` and
 //! `validate/reference.rs`, to `Registry::builtin`, and to `triangle/tests/every.rs`.
 
 #[macro_use]
@@ -39,14 +39,13 @@ pub use watertight::Watertight;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, Lanes, Portable};
 
-/// The number of triangles in a leaf block. A leaf tests all triangles of a block at once.
+/// The number of triangles in a leaf block.
 pub(crate) const BLOCK: usize = 8;
 
 /// Decides whether and where a ray intersects a triangle.
 ///
-/// A test works in two stages: the first stage tests all lanes of a block at once, the second stage tests the remaining
-/// candidates lane by lane. Most tests decide everything in the first stage. The code of a test is generic over the
-/// number of lanes; the scalar test has one lane. All widths return the same bits.
+/// The first stage tests all triangles of a block at once. The second stage tests the remaining candidates one by one.
+/// Results must be bitwise equal for all block sizes.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a triangle test",
     label = "does not implement `TriangleTest` (`sahara_core::triangle::TriangleTest`)",
@@ -60,38 +59,37 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// A prepared ray.
     type Ray: Copy + Send + Sync;
 
-    /// `N` triangles in the format of the test.
+    /// `N` triangles, prepared for the test.
     type Block<const N: usize>: Copy + Send + Sync;
 
-    /// The intermediate results of the first stage, in lanes.
+    /// The intermediate results of the first stage.
     type First<const N: usize, L: Lanes<N>>: Copy;
 
     /// The values that the first stage passes to the second stage.
     type Values<const N: usize>: Copy;
 
-    /// The position of a hit along the ray. The test orders hits by this value, which may borrow the block.
+    /// The position of a hit along the ray.
     type Depth<'a>: Depth;
 
     /// Prepares a valid ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// Packs at most `N` triangles, given by their corners, into a block. Rays never hit unused lanes.
+    /// Packs the corners of at most `N` triangles into a block. Rays never hit unused lanes.
     ///
     /// # Panics
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The largest `t` of a hit on a valid ray that ends at `t_max`. The default suits tests that round `t`.
+    /// The largest `t` of a hit on a valid ray with the end `t_max`. The default is for tests that round `t`.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
-        // The `t_max` of a valid ray is positive, so this equals `next_down`, but saves a dozen instructions.
+        // This equals `next_down`, because the `t_max` of a valid ray is positive.
         f32::from_bits(t_max.to_bits().wrapping_sub(1))
     }
 
-    /// The first stage. Returns the lanes that the ray may hit at a `t` in [`from`, `to`], as bits, and the input of
-    /// [`values`](Self::values). If there are no such lanes, this input has no meaning.
+    /// The first stage. Returns the lanes that the ray may hit at a `t` in [`from`, `to`], as bits.
     ///
-    /// The result is not a closure: a closure might not be inlined, and would then not be compiled for the SIMD level.
+    /// The second result is the input of [`values`](Self::values). It has no meaning if no lane remains.
     fn candidates<const N: usize, L: Lanes<N>>(
         ray: &Self::Ray,
         block: &Self::Block<N>,
@@ -102,8 +100,9 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The values for the second stage.
     fn values<const N: usize, L: Lanes<N>>(first: Self::First<N, L>) -> Self::Values<N>;
 
-    /// The second stage: the depth at which the ray hits a candidate within the ray's interval, or `None`. The hit may
-    /// lie beyond the `to` of the first stage.
+    /// The second stage. Returns the depth of a hit within the ray's interval, or `None`.
+    ///
+    /// The hit may lie beyond the `to` of the first stage.
     fn decide<'a, const N: usize>(
         ray: &Self::Ray,
         block: &'a Self::Block<N>,
@@ -111,8 +110,9 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// Like [`decide`](Self::decide), but small enough to inline. Returns `None` if the candidate needs `decide`. The
-    /// values must come from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
+    /// Like [`decide`](Self::decide), but small enough to inline. `None` means that the candidate needs `decide`.
+    ///
+    /// The values must come from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
     #[inline(always)]
     fn decide_at_once<'a, const N: usize>(
         ray: &Self::Ray,
@@ -123,8 +123,9 @@ pub trait TriangleTest: Send + Sync + 'static {
         Self::ONE_STAGE.then(|| Self::decide(ray, block, lane, values))
     }
 
-    /// Refines many candidates at once. Returns the remaining candidates and their values for [`decide`](Self::decide),
-    /// or `None` if refining does not pay. It may drop candidates beyond `nearest`.
+    /// Refines many candidates at once. Returns the remaining candidates and the values for [`decide`](Self::decide).
+    ///
+    /// `None` means that refining does not pay. Candidates beyond `nearest` may be removed.
     #[inline(always)]
     fn look_closer(
         _ray: &Self::Ray,
@@ -136,29 +137,33 @@ pub trait TriangleTest: Send + Sync + 'static {
         None
     }
 
-    /// The order of two hits along `ray`, which must be the ray of both hits. The order is total.
+    /// The total order of two hits of `ray`.
     #[inline(always)]
     fn order<'a>(ray: &Self::Ray, one: &Self::Depth<'a>, other: &Self::Depth<'a>) -> Ordering {
         one.order(other).unwrap_or_else(|| Self::order_closely(ray, one, other))
     }
 
-    /// The order of two hits if [`Depth::order`] is `None`. Tests for which it can be `None` must implement this.
+    /// The order of two hits if [`Depth::order`] is `None`. Tests with such hits must implement this function.
     fn order_closely(_ray: &Self::Ray, _one: &Self::Depth<'_>, _other: &Self::Depth<'_>) -> Ordering {
         unreachable!("a test whose depths may be unordered implements `order_closely`")
     }
 
-    /// If true, the first stage decides all hits: `decide` accepts every candidate, and [`Depth::of`] returns a depth.
+    /// Whether the first stage decides all hits.
+    ///
+    /// If true, `decide` accepts every candidate, and [`Depth::of`] returns a depth.
     const ONE_STAGE: bool = false;
 
-    /// Whether structures compile batch strategies for this test, which trace several rays of a slice at once. Batch
-    /// strategies take most of the compile time.
+    /// Whether structures can trace several rays at once with this test.
+    ///
+    /// Code for several rays takes most of the compile time.
     const BATCHED: bool = false;
 
     /// Whether the test implements [`meet_eight`](Self::meet_eight).
     const EIGHT: bool = false;
 
-    /// Runs the first stage for eight rays and the triangle in `lane` of a block. Finds hits of the `active` rays at a
-    /// `t` up to `to`. May return `None` if all `active` rays miss the triangle.
+    /// Runs the first stage for eight rays and the triangle in `lane` of a block.
+    ///
+    /// Finds hits of the `active` rays at a `t` up to `to`. May return `None` if all `active` rays miss.
     #[inline(always)]
     fn meet_eight<const N: usize, L: EightLanes>(
         _rays: &EightRays<L>,
@@ -170,13 +175,14 @@ pub trait TriangleTest: Send + Sync + 'static {
         unreachable!("a test with `EIGHT` implements `meet_eight`")
     }
 
-    /// The depth of a hit of [`meet_eight`](Self::meet_eight), from its bounds of `t`. Used if [`Depth::of`] is `None`.
+    /// The depth of a hit of [`meet_eight`](Self::meet_eight), from its bounds of `t`. Required if [`Depth::of`] is
+    /// `None`.
     #[inline(always)]
     fn depth_between<const N: usize>(_block: &Self::Block<N>, _lane: usize, _low: f32, _high: f32) -> Self::Depth<'_> {
         unreachable!("a test whose `Depth::of` is `None` implements `depth_between`")
     }
 
-    /// The scalar test: the hit of one triangle at a `t` in [`from`, `to`].
+    /// Tests a single triangle for a hit at a `t` in [`from`, `to`].
     #[inline(always)]
     fn hit<'a>(ray: &Self::Ray, triangle: &'a Self::Block<1>, from: f32, to: f32) -> Option<Self::Depth<'a>> {
         let (candidate, first) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
@@ -184,7 +190,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     }
 }
 
-/// The `t` at which `ray` hits the triangle within its interval. An invalid ray hits nothing.
+/// The `t` at which `ray` hits the triangle within the ray's interval. Returns `None` for an invalid ray.
 pub fn scalar_hit<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let (t_min, t_max) = ray.interval();
     let triangle = T::block(&[corners]);

@@ -3,19 +3,19 @@ use glam::Vec3;
 use super::{EightHits, EightRays, TriangleTest};
 use crate::simd::{EightLanes, LaneVec3, Lanes};
 
-/// Möller-Trumbore in `f32`: two-sided, with precomputed edges and a division only for `t`.
+/// The two-sided Möller-Trumbore test in `f32`, with precomputed edges.
 ///
-/// Guarantees: edges and vertices belong to the triangle (all comparisons include equality); there is no epsilon; NaN
-/// never hits. Not guaranteed: closed meshes may leak at edges, because the two triangles at an edge round their
-/// barycentrics independently; `t` of a grazing ray may be off by thousands of ulps. Cost: one division per eight tests
-/// (`cargo bench --bench kernels`).
+/// Edges and vertices belong to the triangle. The test has no epsilon. A triangle with a NaN is never hit.
+///
+/// Closed meshes may leak at edges, because the two triangles at an edge round their barycentrics independently. The
+/// `t` of a grazing ray may be off by thousands of ulps.
 ///
 /// # References
 /// Möller, Trumbore: Fast, minimum storage ray/triangle intersection. Journal of Graphics Tools 2(1), 1997.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MollerTrumbore;
 
-/// One corner and the two edges that leave it, coordinate by coordinate.
+/// One corner and the two edges that leave it, in structure-of-arrays layout.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Edges<const N: usize> {
@@ -26,23 +26,21 @@ pub struct Edges<const N: usize> {
 
 const _: () = assert!(size_of::<Edges<1>>() == 36);
 
-/// The intersection of a line and a triangle.
 struct Solution<L> {
-    /// Barycentrics, times the magnitude of the determinant.
+    /// `u` and `v` are barycentrics times `abs_det`.
     u: L,
     v: L,
     abs_det: L,
     t: L,
 }
 
-/// Solves each lane. `to_origin` points from the first corner to the ray's origin.
+/// `to_origin` points from the first corner to the ray's origin.
 #[inline(always)]
 fn solve<const N: usize, L: Lanes<N>>(
     direction: LaneVec3<N, L>,
     to_origin: LaneVec3<N, L>,
     [edge1, edge2]: [LaneVec3<N, L>; 2],
 ) -> Solution<L> {
-    // Cramer's rule: numerators times the sign of the determinant have the signs of the barycentrics.
     let p = direction.cross(edge2);
     let q = to_origin.cross(edge1);
     let det = edge1.dot(p);
@@ -65,7 +63,7 @@ impl TriangleTest for MollerTrumbore {
 
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Edges<N> {
         assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
-        // Edges of length zero give a determinant of zero, which hits nothing.
+        // Unused lanes hit nothing, because edges of length zero give a determinant of zero.
         let mut block = Edges { corner: [[0.0; N]; 3], edge1: [[0.0; N]; 3], edge2: [[0.0; N]; 3] };
         for (lane, &[a, b, c]) in triangles.iter().enumerate() {
             for axis in 0..3 {
@@ -89,7 +87,7 @@ impl TriangleTest for MollerTrumbore {
         let Solution { u, v, abs_det, t } = solve::<N, L>(LaneVec3::splat(direction), to_origin, edges);
         let zero = L::zero();
         let inside = zero.le(u) & zero.le(v) & u.add(v).le(abs_det) & zero.lt(abs_det);
-        // An overflow may have made t NaN: such a lane hits nothing.
+        // If an overflow makes `t` NaN, the lane hits nothing.
         (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
     }
 
@@ -109,7 +107,7 @@ impl TriangleTest for MollerTrumbore {
         let zero = L::zero();
         let barycentrics = L::both(zero.cmp_le(u), zero.cmp_le(v));
         let inside = L::both(u.add(v).cmp_le(abs_det), zero.cmp_lt(abs_det));
-        // An overflow may have made t NaN: such a lane hits nothing.
+        // If an overflow makes `t` NaN, the lane hits nothing.
         let within = L::both(rays.t_min.cmp_le(t), t.cmp_le(to));
         let met = L::both(L::both(barycentrics, inside), within);
         Some(EightHits { met, missed: L::mask(0), low: t, high: t })

@@ -1,38 +1,36 @@
 use super::TriangleTest;
 use crate::simd::{Arithmetic, LaneVec3};
 
-/// [`MollerTrumbore`](super::MollerTrumbore) in `f64`. It widens triangles by its rounding error; `t` is an `f32`.
+/// [`MollerTrumbore`](super::MollerTrumbore) in `f64`. The test widens triangles by its rounding error, and rounds `t`
+/// to `f32`.
 ///
-/// Let D, E and |s| be sums of the magnitudes of components: D of the direction d, E of both edges e1 and e2 at the
-/// first corner, |s| of the vector from this corner to the origin. Let det = e1 . (d x e2). Proved:
+/// The size of a vector is the sum of the magnitudes of its components. D is the size of the direction d. The edges e1
+/// and e2 begin at the first corner. E is the sum of the sizes of e1 and e2. |s| is the size of the vector s from the
+/// first corner to the origin. Let det = e1 . (d x e2). Proven bounds:
 ///
-/// - The test finds a triangle that the ray hits if |det| >= 2^-46 D E E.
-/// - If it reports a hit, no barycentric is below -2^-46 D E (|s| + 2 E) / |det|, and the error of `t` is at most 2^-51
-///   E E (|s| + |t| D) / |det|, plus half an ulp of the final rounding.
+/// - If the ray hits the triangle and |det| >= 2^-46 D E E, the test reports a hit. Near the ends of the interval, the
+///   computed `t` decides.
+/// - No barycentric of a reported hit is below -2^-46 D E (|s| + 2 E) / |det|.
+/// - The error of `t` is at most 2^-51 E E (|s| + |t| D) / |det|, plus half an ulp of the final rounding.
 ///
-/// So the test loses a ray through an edge or a vertex of a closed mesh only at needles that the ray grazes.
-///
-/// The errors are large only for needles and slivers: |det| is twice the area times the sine of the angle to the plane
-/// times the length of the direction. Measured on single triangles: a false hit 4.5e-11 outside a sliver of aspect
-/// ratio 10,000; a missed hit on a needle of aspect ratio 10,000,000, which the ray meets along its length; a `t` that
-/// is off by 115 ulps on another needle. [`Exact`](super::Exact) has none of these errors.
-///
-/// Cost: two to three times the cost of the `f32` test in blocks.
+/// Only needles and slivers have large errors.
 ///
 /// # References
 /// See [`MollerTrumbore`](super::MollerTrumbore).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MollerTrumboreF64;
 
-/// The lanes whose triangle the line hits, as bits, and `t` at the planes of all triangles.
+/// Returns the lanes whose triangle the line hits, as bits, and the `t` of all lanes.
 ///
-/// **Bounds.** The analysis of the first stage of the exact test (`filter::filter_block`) applies, with n = 2^-53
-/// instead of 2^-24. The error of u, v and det - u - v is less than 40 n D E (|s| + 2 E), the error of det less than 43
-/// n D E E. D and E bound the components of the direction and of the edges, here as sums instead of maxima. If the
-/// computed |det| is at most 80 n D E E, its sign is uncertain and the test reports no hit; an exact |det| of at least
-/// 2^7 n D E E excludes this. If a computed value is at least minus the slack, the exact value is at least minus twice
-/// the slack, 80 n D E (|s| + 2 E). With sums, the error of h = f . (s x e) is 8.1 n |e| |f| |s| <= 2.1 n E E |s|, and
-/// the error of det is 1.8 n D E E, so the error of h / det is less than 4 n E E (|s| + |t| D) / |det|.
+/// **Bounds.** The analysis of `filter::filter_block` applies, with n = 2^-53 instead of w = 2^-24. Here, D and E are
+/// sums instead of maxima. The slack k = 40 n D E (|s| + 2 E) exceeds the errors of u, v and det - u - v. If a computed
+/// value is at least -k, the exact value is at least -2 k.
+///
+/// The error of det is less than 43 n D E E. The sign of det is certain if the computed |det| exceeds 80 n D E E.
+/// Otherwise the test reports no hit. An exact |det| of at least 2^7 n D E E ensures a certain sign.
+///
+/// The error of h = e2 . (s x e1) is at most 8.1 n |e1| |e2| |s| <= 2.1 n E E |s|. A sharper analysis with sums bounds
+/// the error of det by 1.8 n D E E. Hence the error of t = h / det is less than 4 n E E (|s| + |t| D) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     origin: LaneVec3<N, L>,

@@ -1,12 +1,11 @@
 use super::{Corners, TriangleTest};
 use crate::simd::{LaneVec3, Lanes, each};
 
-/// Edge test in `f32`: a ray hits if it passes all three edges on the same side. Triple products of the direction and
-/// two corners, relative to the ray's origin, decide the sides. `t` comes from the plane of the triangle.
+/// Edge test in `f32`. A ray hits a triangle if the ray passes all three edges on the same side.
 ///
-/// Guarantees: the two triangles at an edge compute the same number for the edge, with opposite signs, so no ray passes
-/// between them; `t` is as accurate as the normal. Not guaranteed: rays through vertices may be lost; products of three
-/// lengths leave the range of `f32` at scales of 1e13 and above, and below 1e-12.
+/// The two triangles at an edge compute opposite numbers for the edge. Hence no ray passes between the triangles. The
+/// test may lose rays through vertices. Products of three lengths overflow in scenes of size 1e13 and above, and
+/// underflow in scenes below 1e-12.
 ///
 /// # References
 /// Shoemake: Plücker coordinate tutorial. Ray Tracing News 11(1), 1998. Segura, Feito: Algorithms to test ray-triangle
@@ -30,7 +29,7 @@ impl TriangleTest for Plucker {
         let corners = block.load::<L>();
         let [a, b, c] = each(&corners, |&corner| corner - origin);
         let volumes = each(&[c.cross(b), a.cross(c), b.cross(a)], |&side| direction.dot(side));
-        // Any of the three volumes may be zero: the triangle is closed.
+        // The triangle is closed, so any volume may be zero.
         let zero = L::zero();
         let above = volumes.iter().fold(u32::MAX, |lanes, v| lanes & zero.le(*v));
         let below = volumes.iter().fold(u32::MAX, |lanes, v| lanes & v.le(zero));

@@ -1,4 +1,4 @@
-//! Generators of numbers, rays and triangles for the tests of triangle tests.
+//! Generators of numbers, rays and triangles for tests.
 
 mod closed;
 mod eight_rays;
@@ -20,12 +20,11 @@ pub(crate) fn unit(rng: &mut Pcg32) -> f32 {
     rng.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0
 }
 
-/// Small integers: hits on edges and corners, zeros and parallel rays are frequent.
+/// Small integers often give zeros, parallel rays, and hits on edges and corners.
 pub(crate) fn grid(rng: &mut Pcg32) -> f32 {
     (rng.next_u32() % 5) as f32 - 2.0
 }
 
-/// Any finite number: products may overflow and underflow.
 pub(crate) fn any(rng: &mut Pcg32) -> f32 {
     loop {
         let x = f32::from_bits(rng.next_u32());
@@ -47,7 +46,6 @@ pub(crate) fn ray(rng: &mut Pcg32, number: Number) -> Ray {
     Ray::new(point(rng, number), point(rng, number))
 }
 
-/// A ray aimed at the triangle from any distance: it often hits or narrowly misses.
 fn aimed(rng: &mut Pcg32, [a, b, c]: [Vec3; 3]) -> Ray {
     let (u, v) = (unit(rng) * 0.7 + 0.3, unit(rng) * 0.7 + 0.3);
     let target = a + (b - a) * u + (c - a) * v;
@@ -59,9 +57,8 @@ fn true_t(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     judge::hit(ray, corners).filter(|t| ray.is_valid() && t.is_within(ray)).map(|t| t.round())
 }
 
-/// A difficult ray and triangle for a filter, in turn: any floats, an aimed ray, a sliver far away, a grid.
 fn hard(rng: &mut Pcg32, round: usize) -> (Ray, [Vec3; 3]) {
-    // A random power of two as the scale, because each intermediate result underflows at a different scale.
+    // The scale is random, because each intermediate result underflows at a different scale.
     let scale = f32::from_bits((1 + rng.next_u32() % 251) << 23);
     match round % 4 {
         0 => (ray(rng, any), triangle(rng, any)),

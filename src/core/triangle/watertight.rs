@@ -4,28 +4,26 @@ use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
 use crate::simd::{Lanes, each, indexed};
 
-/// Watertight, in `f32`: the test shears space such that the ray runs along the third axis, and tests edges in 2D. If
-/// an edge value is zero, or if the sum of the edge values is very small or very large, it recomputes them in `f64`.
+/// The watertight test in `f32`. It shears space to align the ray with the third axis, and tests edges in 2D.
 ///
-/// Guarantees: a corner is sheared to the same point for every triangle that contains it, and the sign of an edge is
-/// exact for the sheared corners, so no ray passes between the triangles of a closed mesh, including edges and
-/// vertices. Not guaranteed: accuracy. Shearing rounds, so a ray within an ulp of an edge may go to either side (or
-/// miss a single triangle at its rim), and `t` of slivers may be off by thousands of ulps.
+/// For one ray, a corner is sheared to the same point in every triangle. The sign of an edge value is exact for the
+/// sheared corners. Hence no ray passes between the triangles of a closed mesh.
 ///
-/// Range: any scene size in which coordinate differences do not overflow. Scenes below 1e-15 or above 1e6 units are
-/// slower. The test may lose hits at `t` above 3e26 or if the largest direction component is below 3e-39 or above 8e37.
+/// Shearing rounds, so a ray within an ulp of an edge may go to either side. The `t` of slivers may be off by thousands
+/// of ulps. The test may lose hits at `t` above 3e26. It may also lose hits if the largest direction component is below
+/// 3e-39 or above 8e37.
 ///
 /// # References
 /// Woop, Benthin, Wald: Watertight ray/triangle intersection. Journal of Computer Graphics Techniques 2(1), 2013.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Watertight;
 
-/// A ray with permuted axes. The third axis is the axis of its largest direction component.
+/// A ray with permuted axes. The third axis is the axis of the largest direction component.
 #[derive(Clone, Copy, Debug)]
 pub struct ShearedRay {
     /// The axes in the order x, y, z of the sheared space.
     axes: [usize; 3],
-    /// The origin in that order.
+    /// The origin in the order of `axes`.
     origin: [f32; 3],
     shear: [f32; 3],
 }
@@ -41,7 +39,7 @@ impl TriangleTest for Watertight {
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> ShearedRay {
-        // The longest component becomes the third. If it is negative, the other axes are swapped to keep the winding.
+        // If the third component is negative, the swap of two axes keeps the winding.
         let z = ray.direction.abs().max_position();
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
         if ray.direction[z] < 0.0 {
@@ -61,7 +59,6 @@ impl TriangleTest for Watertight {
 
     #[inline(always)]
     fn candidates<const N: usize, L: Lanes<N>>(ray: &ShearedRay, block: &Corners<N>, from: f32, to: f32) -> (u32, L) {
-        // Shear the corners, relative to the origin.
         let [[x, y, z], shear] = each(&[ray.origin, ray.shear], |v| each(v, |&x| L::splat(x)));
         let zs = each(&block.axis::<L>(ray.axes[2]), |corner| corner.sub(z));
         let sheared = |axis: usize, origin: L, shear: L| {
@@ -71,7 +68,6 @@ impl TriangleTest for Watertight {
         let xs = sheared(ray.axes[0], x, shear[0]);
         let ys = sheared(ray.axes[1], y, shear[1]);
 
-        // Compute the edge values. If one is zero or `det` is too small or too large, use `f64`, where signs are exact.
         let edges = |[ax, bx, cx]: [L; 3], [ay, by, cy]: [L; 3]| {
             [cx.mul(by).sub(cy.mul(bx)), ax.mul(cy).sub(ay.mul(cx)), bx.mul(ay).sub(by.mul(ax))]
         };
@@ -97,12 +93,11 @@ impl TriangleTest for Watertight {
     }
 }
 
-/// Sums of edge values from `SMALL` to `LARGE` cause no underflow and no overflow in the computation of `t`.
+/// For sums of edge values from `SMALL` to `LARGE`, the computation of `t` neither overflows nor underflows.
 const SMALL: f32 = 1.0 / (1_u128 << 100) as f32;
 const LARGE: f32 = (1_u64 << 40) as f32;
 
-/// The edge values, recomputed in `f64` in lanes where one is zero or their sum is too small or too large. A power of
-/// two scales all three values of such a lane, which changes neither their signs nor `t`.
+/// A power of two scales the three values of a lane. This scaling changes neither the signs nor `t`.
 #[cold]
 fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) -> [L; 3] {
     let mut values = each(&volumes, |v| v.store());
@@ -112,7 +107,7 @@ fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) 
         if [u, v, w].iter().all(|v| *v != 0.0) && (SMALL..=LARGE).contains(&(u + v + w).abs()) {
             continue;
         }
-        // Products of two floats are exact in `f64`, and so is the sign of their difference.
+        // A product of two `f32` is exact in `f64`. Hence the sign of a difference of two such products is exact.
         let [[ax, bx, cx], [ay, by, cy]] = each(&[xs, ys], |v| each(v, |corner| f64::from(corner[lane])));
         let exact = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
         let largest = exact.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
@@ -124,7 +119,7 @@ fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) 
     each(&values, L::load)
 }
 
-/// The reciprocal of the largest power of two up to `x`. `x` is positive and far from the ends of `f64`.
+/// The reciprocal of the largest power of two up to `x`. `x` must be positive and far from the limits of `f64`.
 fn inverse_power_of_two(x: f64) -> f64 {
     f64::from_bits((2046 - (x.to_bits() >> 52)) << 52)
 }

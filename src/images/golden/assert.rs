@@ -7,16 +7,15 @@ use image::DynamicImage;
 use super::page::Values;
 use super::{GoldenError, Match, PictureError, failure, file};
 
-/// The environment variable that, with the value `update`, makes [`assert_image`] write golden images instead of
-/// comparing.
+/// If this environment variable has the value `update`, [`assert_image`] writes golden images instead of comparing.
 pub const UPDATE: &str = "SAHARA_GOLDEN";
 
-/// The folder for the pictures of failures, relative to the current directory, which is the crate's folder in tests.
+/// This path is relative to the current directory, which is the crate's folder in tests.
 const OUT: &str = "out/golden";
 
-/// Compares all channels of `actual`, including alpha, with the golden image `path`, without a conversion. For tests.
+/// Compares all channels of `actual`, including alpha, with the golden image `path`.
 ///
-/// If the environment has `SAHARA_GOLDEN=update`, writes `actual` to `path` as PNG instead. Creates missing folders.
+/// If the environment has `SAHARA_GOLDEN=update`, the function writes `actual` to `path` as PNG instead.
 ///
 /// ```
 /// use sahara_images::golden::{Allowed, Match, assert_image};
@@ -40,9 +39,11 @@ const OUT: &str = "out/golden";
 /// ```
 ///
 /// # Panics
-/// If the picture is not accepted, if its size, channels or bits per channel differ, or if there is no golden image. If
-/// the pictures differ, the message contains the path of a page with both pictures and their difference, in a folder
-/// with the name of the golden image in `out/golden`. Without the feature `page`, this folder has no HTML page.
+/// If `how` rejects the picture, or if the size, channels or bits per channel differ. If the golden image cannot be
+/// read or written.
+///
+/// If the pictures differ, the message names a page with the two pictures and the difference. The page is in a folder
+/// of `out/golden` with the name of the golden image. Without the feature `page`, this folder contains no HTML page.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how: Match) {
     let (path, actual) = (path.as_ref(), actual.into());
@@ -108,7 +109,7 @@ mod tests {
         refusal(&Rgb32FImage::new(2, 2).into(), Match::Exact);
         assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap().width(), 2);
 
-        // The reason is in the message even if the pictures cannot be written.
+        // The message contains the reason even if the pictures cannot be written.
         std::fs::remove_dir_all(&out).unwrap();
         std::fs::write(&out, b"no folder").unwrap();
         let reason = refusal(&picture(11), Match::Exact);

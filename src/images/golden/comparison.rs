@@ -1,4 +1,4 @@
-//! Compares two pictures. Tables, JSON and the HTML page show the result.
+//! Compares two pictures.
 
 use image::{DynamicImage, RgbImage};
 use serde::Serialize;
@@ -8,7 +8,7 @@ use super::rule::{Limit, Match, NoFlip, differ};
 use super::{Difference, Layout, Mask, difference_picture};
 use crate::plural::{count, plural};
 
-/// The result of comparing two pictures.
+/// The result of a comparison. The failing verdicts precede `Accepted`, because [`Comparison::fails`] uses this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
@@ -22,7 +22,6 @@ pub enum Verdict {
     Identical,
 }
 
-/// The comparison of two pictures with the same name, or a picture that exists only once.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     pub name: String,
@@ -32,40 +31,36 @@ pub struct Comparison {
     /// A command that investigates the difference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// The number that the rule compares, and its limit; `None` without `measures` and for [`Match::Exact`].
+    /// `None` without `measures` and for [`Match::Exact`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<Limit>,
-    /// The measures; `None` if the pictures are equal or cannot be compared.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
 }
 
-/// Maps of the difference of two pictures, which the page shows beside the pictures.
 pub struct Maps {
     pub difference: RgbImage,
     pub flip: Option<FlipMap>,
 }
 
 impl Comparison {
-    /// A comparison without measures.
     pub fn said(name: impl Into<String>, verdict: Verdict, sentence: impl Into<String>) -> Self {
         Self { name: name.into(), verdict, said: vec![sentence.into()], command: None, limit: None, measures: None }
     }
 
-    /// Removes the sizes of differences. Use it for pictures whose values are names, such as numbers of primitives.
+    /// Removes the sizes of differences. The size of a difference between primitive numbers has no meaning.
     #[must_use]
     pub fn without_sizes(self, size: [u32; 2]) -> Self {
         let Some(measures) = self.measures.map(Measures::without_sizes) else { return self };
         Self { said: vec![measures.difference.sentence(size)], measures: Some(measures), ..self }
     }
 
-    /// Whether the verdict is neither `Accepted` nor `Identical`.
     pub fn fails(&self) -> bool {
         self.verdict < Verdict::Accepted
     }
 }
 
-/// Compares the unmasked pixels of two pictures. The maps are `None` if the pictures are equal or cannot be compared.
+/// The maps are `None` if the pictures are equal or cannot be compared.
 pub fn compare(
     name: &str,
     [expected, actual]: [&DynamicImage; 2],
@@ -108,7 +103,6 @@ pub fn compare(
 }
 
 impl Difference {
-    /// A sentence with the number of different pixels, the first one, and the largest difference with its position.
     pub fn sentence(&self, [width, height]: [u32; 2]) -> String {
         let Self { pixels, first, worst, largest, full_scale } = *self;
         let all = plural(width as usize * height as usize, "pixel");

@@ -1,4 +1,4 @@
-//! The difference of two pictures, without a conversion of channels or depth.
+//! The difference of two pictures with the same size, channels and depth.
 
 use image::{DynamicImage, RgbImage};
 use serde::Serialize;
@@ -6,23 +6,21 @@ use serde::Serialize;
 use super::layout::Layout;
 use crate::render::from_pixels;
 
-/// The difference of two pictures of one layout.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Difference {
-    /// The number of different pixels, at least 1.
     pub pixels: usize,
-    /// Column and row, from the top left, of the first different pixel in reading order.
+    /// Column and row, from the top left, of the first different pixel.
     pub first: [u32; 2],
     /// Column and row of the first pixel with the largest difference.
     pub worst: [u32; 2],
-    /// The largest difference of a channel, including alpha; infinite if a channel is NaN in exactly one picture.
+    /// The largest difference of a channel, including alpha. A NaN in only one of the pictures gives infinity.
     pub largest: f64,
-    /// The value of white, in the unit of `largest`: 255, 65535, or 1 for floats. Floats can be larger than white.
+    /// The value of white, in the unit of `largest`: 255, 65535, or 1 for floats.
     pub full_scale: f64,
 }
 
 impl Difference {
-    /// The difference of the pictures; `None` if all their values are equal.
+    /// `None` if all values are equal.
     ///
     /// # Panics
     /// If the layouts differ.
@@ -47,19 +45,16 @@ impl Difference {
 /// full scale, or 1 for floats.
 ///
 /// # Panics
-/// If the pictures differ in layout.
+/// If the layouts differ.
 pub fn pixels_over(one: &DynamicImage, other: &DynamicImage, difference: f64) -> usize {
     let layout = Layout::of(one);
-    // Multiply both sides of the comparison: a division could round a value across the limit.
+    // Multiply both sides: a division could round a value across the limit.
     let (own, limit) = if layout.is_float() { (1.0, difference) } else { (255.0, difference * layout.full_scale()) };
     gaps(one, other).filter(|gap| gap * own > limit).count()
 }
 
-/// A picture of the difference. Equal pixels are black. The colours of all other pixels range from dark red, for 1/255
-/// of full scale or less, to yellow, for full scale or more.
-///
 /// # Panics
-/// If the pictures differ in layout.
+/// If the layouts differ.
 pub fn difference_picture(one: &DynamicImage, other: &DynamicImage) -> RgbImage {
     let layout = Layout::of(one);
     let colour = |gap: f64| match (gap / layout.full_scale() * 255.0).ceil() as u8 {
@@ -69,7 +64,6 @@ pub fn difference_picture(one: &DynamicImage, other: &DynamicImage) -> RgbImage 
     from_pixels(layout.size, gaps(one, other).map(colour).collect())
 }
 
-/// For each pixel, the largest difference of its channels.
 fn gaps<'a>(one: &'a DynamicImage, other: &'a DynamicImage) -> impl Iterator<Item = f64> + 'a {
     let layout = Layout::of(one);
     assert_eq!(layout, Layout::of(other), "pictures of one layout");
@@ -83,7 +77,7 @@ fn gaps<'a>(one: &'a DynamicImage, other: &'a DynamicImage) -> impl Iterator<Ite
     pixels(one).zip(pixels(other)).map(gap)
 }
 
-/// The distance of two values. NaNs are equal to each other, and infinitely far from all other values.
+/// NaNs are equal to each other, and infinitely far from all other values.
 pub(super) fn apart(one: f64, other: f64) -> f64 {
     let gap = (one - other).abs();
     if one == other || one.is_nan() && other.is_nan() {

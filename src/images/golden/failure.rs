@@ -1,4 +1,4 @@
-//! Checks a picture against a golden image, and writes a page if the picture is not accepted.
+//! Compares a picture with a golden image, and writes a page of the differences.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,8 +12,7 @@ use super::rule::{Match, NoFlip};
 use super::{GoldenError, Layout, PictureError};
 use crate::output::OutputFolder;
 
-/// Compares `actual` with `expected`, the golden image at `path`, by the rule `how`. If `actual` is not accepted,
-/// writes a page with pictures to the folder `shown`.
+/// `path` appears only in messages. `shown` is the folder of the page.
 pub fn check(
     path: &Path,
     label: &str,
@@ -24,7 +23,7 @@ pub fn check(
     remedy: &'static str,
 ) -> Result<(), GoldenError> {
     let [wanted, found] = pictures.map(Layout::of);
-    // A picture within the tolerance needs no further measures. Skip them, because FLIP and SSIM take long.
+    // Skip FLIP and SSIM for an accepted picture, because they take long.
     let is_tolerance = matches!(how, Match::Tolerance { .. }) && wanted == found;
     if is_tolerance && how.limit(pictures, None, None).is_some_and(|limit| limit.is_met()) {
         return Ok(());
@@ -52,14 +51,12 @@ pub fn check(
             )
         })?)
     };
-    // If the pictures cannot be written, the error still contains the difference.
     Err(match leave() {
         Ok(()) => refusal,
         Err(cause) => GoldenError::NotShown { refusal: Box::new(refusal), cause: Box::new(cause.into()) },
     })
 }
 
-/// The folder in `out` for `name`; characters other than letters, digits, `.`, `-` and `_` become `_`.
 pub fn folder(out: &Path, name: &str) -> PathBuf {
     out.join(name.chars().map(|c| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '_' }).collect::<String>())
 }

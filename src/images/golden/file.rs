@@ -11,10 +11,9 @@ use crate::escaped::Escaped as _;
 use crate::output::{OutputError, OutputFile};
 use crate::render::png_encoder;
 
-/// The maximum size of a file and its pixels together, in MiB; the decoder needs additional memory.
+/// The maximum size of a file and its pixels together, in MiB.
 const LARGEST: u64 = 512;
 
-/// The reason why a picture cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     #[error("cannot read the picture {}: {cause}", path.escaped())]
@@ -41,13 +40,13 @@ fn reason(cause: &ImageError) -> String {
     }
 }
 
-/// The message on one line: some decoders put line breaks into messages.
+/// Some decoders put line breaks into messages.
 fn in_a_line(cause: &ImageError) -> String {
     cause.to_string().lines().collect::<Vec<_>>().join(" ")
 }
 
-/// Reads a picture and keeps its channels and bits per channel, with two exceptions: grey gets at least 8 bits, and a
-/// palette becomes RGB or RGBA. The content of the file, not its name, determines the format.
+/// Keeps the channels and bits per channel, except for PNG palettes, transparent colours and grey below 8 bits.
+/// The content of the file, not its name, determines the format.
 ///
 /// # Errors
 /// If the file cannot be read, is damaged, is not a picture, or takes more than 512 MiB together with its pixels.
@@ -55,16 +54,14 @@ pub fn read(path: &Path) -> Result<DynamicImage, PictureError> {
     decode(path, &read_bytes(path)?)
 }
 
-/// The bytes of a file, truncated to the maximum size of a picture plus one byte.
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, PictureError> {
     let mut bytes = vec![];
-    // The extra byte makes [`decode`] reject a file that is too large.
+    // The extra byte makes `decode` reject a larger file.
     let file = File::open(path).and_then(|file| file.take((LARGEST << 20) + 1).read_to_end(&mut bytes));
     file.map_err(|cause| PictureError::Read { path: path.into(), cause })?;
     Ok(bytes)
 }
 
-/// Like [`read`], for `bytes` that were already read from the file `path`.
 pub(super) fn decode(path: &Path, bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     decoded(bytes).map_err(|cause| PictureError::Decode { path: path.into(), cause })
 }
@@ -83,8 +80,7 @@ fn decoded(bytes: &[u8]) -> ImageResult<DynamicImage> {
     Ok(picture)
 }
 
-/// Whether the marker "end of image" follows the last scan header of a JPEG file. The decoder does not report a
-/// truncated file: it fills missing pixels with grey.
+/// The decoder does not report a truncated JPEG file: it fills missing pixels with grey.
 fn is_whole_jpeg(bytes: &[u8]) -> bool {
     let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
     let (scan, end) = (last([0xFF, 0xDA]), last([0xFF, 0xD9]));
@@ -99,7 +95,7 @@ pub fn write(path: &Path, picture: &DynamicImage) -> Result<(), PictureError> {
     write_noted(path, picture, None)
 }
 
-/// Like [`write`], with a note in the file: ASCII text, which [`note`] reads.
+/// The note must be ASCII text.
 pub(super) fn write_noted(path: &Path, picture: &DynamicImage, note: Option<&str>) -> Result<(), PictureError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|cause| PictureError::Directory { path: folder.into(), cause })?;
@@ -108,7 +104,7 @@ pub(super) fn write_noted(path: &Path, picture: &DynamicImage, note: Option<&str
     Ok(OutputFile::check(path)?.write(&bytes)?)
 }
 
-/// The bytes of a PNG file, always the same for the same picture and note.
+/// The same picture and note must always give the same bytes, because `is_own` compares them with a file.
 pub(super) fn encode(picture: &DynamicImage, note: Option<&str>) -> ImageResult<Vec<u8>> {
     let mut bytes = vec![];
     // Unlike other functions of `image`, `write_image` rejects layouts that PNG does not support.
@@ -123,23 +119,20 @@ pub(super) fn encode(picture: &DynamicImage, note: Option<&str>) -> ImageResult<
     Ok(bytes)
 }
 
-/// Whether `bytes` equal the output of [`encode`] for the picture and the note that they contain.
 pub(super) fn is_own(bytes: &[u8]) -> bool {
     let encoded = |picture: DynamicImage| encode(&picture, note(bytes)).ok();
     decoded(bytes).ok().and_then(encoded).is_some_and(|own| own == bytes)
 }
 
-/// The note in a PNG file that [`encode`] has written.
 pub(super) fn note(bytes: &[u8]) -> Option<&str> {
     let (length, rest) = bytes.get(HEADER..)?.split_first_chunk()?;
     let chunk = rest.get(..TEXT.len() + u32::from_be_bytes(*length) as usize)?;
     str::from_utf8(chunk.strip_prefix(TEXT)?.strip_prefix(KEY)?).ok()
 }
 
-/// The number of bytes of the PNG signature and the first chunk. The chunk with the note follows them.
+/// The length of the PNG signature and the first chunk, in bytes.
 const HEADER: usize = 8 + 25;
 
-/// The type of PNG text chunks, and the keyword of the note.
 const TEXT: &[u8] = b"tEXt";
 const KEY: &[u8] = b"sahara\0";
 
@@ -178,7 +171,6 @@ mod tests {
                 ColorType::Rgba8,
                 &[7, 8, 9, 255, 1, 2, 3, 0],
             ),
-            // Grey of 16 bits: 258 and 65535.
             (
                 "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABEAAAAACB2fwVAAAADUlEQVR4nGNgZPr/HwADDAICGwGttwAAAABJRU5ErkJggg==",
                 ColorType::L16,
@@ -237,7 +229,7 @@ mod tests {
         let good = base64::decode(GREY_1).unwrap();
         for length in 0..good.len() {
             fs::write(&path, &good[..length]).unwrap();
-            // Eight bytes identify the format. The last 12 bytes, an empty chunk, may be missing.
+            // Eight bytes identify the format. The last 12 bytes are an empty chunk, which may be missing.
             if (8..good.len() - 12).contains(&length) {
                 refusal("damaged or truncated");
             }
@@ -250,8 +242,7 @@ mod tests {
             refusal(other);
         }
 
-        // Files with too many pixels are refused before they are decoded. These have 16-bit RGB pixels and the sizes
-        // 16,384 x 16,384, (2^31 - 1) x 1, and (2^31 - 1) x (2^31 - 1).
+        // 16-bit RGB pictures with the sizes 16,384 x 16,384, (2^31 - 1) x 1, and (2^31 - 1) x (2^31 - 1).
         for text in [
             "iVBORw0KGgoAAAANSUhEUgAAQAAAAEAAEAIAAAB2OluQAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
             "iVBORw0KGgoAAAANSUhEUn////8AAAABEAIAAAB/xHjJAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
@@ -273,7 +264,6 @@ mod tests {
             assert_eq!((read(&path).unwrap(), note(&bytes), is_own(&bytes)), (picture.clone(), text, true));
             assert!(!is_own(&bytes[..bytes.len() - 1]));
         }
-        // A file that Pillow wrote, and bytes that are not PNG.
         assert!(!is_own(&base64::decode(GREY_1).unwrap()) && !is_own(b""));
         assert_eq!([note(b""), note(&[0xFF; 50]), note(&base64::decode(GREY_1).unwrap())], [None; 3]);
     }

@@ -5,10 +5,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The extensions of pictures. Without the feature `pictures`, only PNG files can be read.
+/// Files other than PNG can be read only with the feature `pictures`.
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "webp", "exr"];
 
-/// A picture in one of the folders or in both.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair {
     /// The path relative to the folder.
@@ -31,7 +30,6 @@ pub fn pairs(expected: &Path, actual: &Path) -> io::Result<Vec<Pair>> {
     Ok(wanted.union(&found).map(pair).collect())
 }
 
-/// The paths of all pictures in `folder` and its subfolders, relative to `folder`.
 fn pictures(folder: &Path) -> io::Result<BTreeSet<PathBuf>> {
     let (mut found, mut left) = (BTreeSet::new(), vec![PathBuf::new()]);
     while let Some(below) = left.pop() {

@@ -1,13 +1,12 @@
-//! The layout that two pictures must share to be compared, and the values of their channels as numbers.
+//! The layout of a picture, and the values of its channels as numbers.
 
 use std::fmt::{self, Display, Formatter};
 
 use image::DynamicImage;
 
-/// Size, channels and depth of a picture.
+/// Two pictures can be compared only if their layouts are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// Width and height.
     pub size: [u32; 2],
     /// 1 is grey, 2 is grey and alpha, 3 is RGB, 4 is RGB and alpha.
     pub channels: u8,
@@ -22,7 +21,6 @@ impl Layout {
         Self { size, channels, bits: (color.bits_per_pixel() / u16::from(channels)) as u8 }
     }
 
-    /// The value of white in each channel: 255, 65535, or 1 for floats.
     pub fn full_scale(&self) -> f64 {
         match self.bits {
             8 => u8::MAX.into(),
@@ -31,17 +29,15 @@ impl Layout {
         }
     }
 
-    /// Whether values are floats, which may be less than 0 and more than 1.
+    /// Floats may be less than 0 or more than 1.
     pub fn is_float(&self) -> bool {
         self.bits == 32
     }
 
-    /// The number of pixels.
     pub fn pixels(&self) -> usize {
         self.size.map(|side| side as usize).iter().product()
     }
 
-    /// The index of the alpha channel, if there is one.
     pub(super) fn alpha(&self) -> Option<usize> {
         self.channels.is_multiple_of(2).then(|| usize::from(self.channels) - 1)
     }
@@ -50,13 +46,11 @@ impl Layout {
         usize::from(self.channels) * usize::from(self.bits / 8)
     }
 
-    /// The values of the channels in the bytes of a pixel.
     pub(super) fn values<'a>(&self, pixel: &'a [u8]) -> impl Iterator<Item = f64> + 'a {
         pixel.chunks_exact(usize::from(self.bits / 8)).map(value)
     }
 }
 
-/// The value of a channel with 8, 16 or 32 bits.
 fn value(sample: &[u8]) -> f64 {
     match *sample {
         [byte] => byte.into(),

@@ -4,7 +4,6 @@ use image::{DynamicImage, ImageBuffer, Pixel};
 
 use super::layout::Layout;
 
-/// Selects the compared pixels, for pictures of one size.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
     pub size: [u32; 2],
@@ -12,7 +11,7 @@ pub struct Mask {
 }
 
 impl Mask {
-    /// Excludes the black pixels of `picture`; its alpha is ignored.
+    /// Excludes the black pixels of `picture`. Alpha is ignored.
     pub fn new(picture: &DynamicImage) -> Self {
         let layout = Layout::of(picture);
         let colours = usize::from(layout.channels) - usize::from(layout.alpha().is_some());
@@ -21,18 +20,18 @@ impl Mask {
         Self { size: layout.size, compared }
     }
 
-    /// Whether a pixel, counted in reading order, is compared; without a mask, every pixel is compared.
+    /// `pixel` is an index in reading order.
     pub fn compares(mask: Option<&Self>, pixel: usize) -> bool {
         mask.is_none_or(|mask| mask.compared[pixel])
     }
 
     /// The number of excluded pixels.
-    pub fn masked(&self) -> usize {
+    pub fn masked_pixels(&self) -> usize {
         self.compared.iter().filter(|compared| !**compared).count()
     }
 
-    /// Copies the excluded pixels of `expected` to `actual`. Sums of differences and windows around compared pixels
-    /// then see no difference there. The pictures must have the same layout, and the mask their size.
+    /// Copies the excluded pixels of `expected` to `actual`. Sums and windows of the measures then find no difference
+    /// there. The pictures must have the same layout and the size of the mask.
     pub(super) fn applied(&self, expected: &DynamicImage, mut actual: DynamicImage) -> DynamicImage {
         macro_rules! of_one_kind {
             ($($kind:ident)*) => {

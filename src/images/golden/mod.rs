@@ -1,5 +1,4 @@
-//! Image regression tests: compare pictures of any renderer with golden images, exactly or with a tolerance. Every
-//! exact structure must render the same pixels of a built-in scene. [`assert_image`] is for the tests of other crates.
+//! Compares pictures of any renderer with golden images. [`assert_image`] is for the tests of other crates.
 //!
 #![doc = include_str!("GOLDEN.md")]
 
@@ -31,7 +30,6 @@ pub use mask::Mask;
 pub use rule::{Allowed, Limit, Match, NoFlip};
 pub use scene::{Overwrite, SIZE, SceneGolden, TRIANGLE_TEST, Update, VIEWS};
 
-/// The reason why a picture is not accepted. `remedy` explains how to create golden images.
 #[derive(Debug, thiserror::Error)]
 pub enum GoldenError {
     #[error("{cause}: {remedy}")]
@@ -44,15 +42,15 @@ pub enum GoldenError {
     #[error(
         "the golden image {} has {} x {} pixels, but {} x {} are requested: pass --size {}x{}, or replace it with \
          `sahara golden update`",
-        path.escaped(), golden[0], golden[1], asked[0], asked[1], golden[0], golden[1]
+        path.escaped(), golden[0], golden[1], requested[0], requested[1], golden[0], golden[1]
     )]
-    Size { path: PathBuf, golden: [u32; 2], asked: [u32; 2] },
+    Size { path: PathBuf, golden: [u32; 2], requested: [u32; 2] },
     #[error(
-        "the golden image {} was rendered with {golden}, but {asked} is requested: pass the former, or replace the \
+        "the golden image {} was rendered with {golden}, but {requested} is requested: pass the former, or replace the \
          image with `sahara golden update`",
         path.escaped()
     )]
-    Camera { path: PathBuf, golden: String, asked: String },
+    Camera { path: PathBuf, golden: String, requested: String },
     #[error("{} was not written by `sahara golden update`: pass --force to replace it", .0.escaped())]
     Foreign(PathBuf),
     #[error(

@@ -16,11 +16,9 @@
 
 use image::{DynamicImage, ImageBuffer, LumaA, Rgb32FImage};
 
-/// The number that represents a miss in a picture of primitive numbers.
+/// Represents a miss in a picture of primitive numbers.
 pub const MISS: u32 = u32::MAX;
 
-/// A picture for a PNG file, with one number per pixel.
-///
 /// # Panics
 /// If there are fewer numbers than pixels.
 pub fn packed([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
@@ -29,13 +27,12 @@ pub fn packed([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
     picture.expect("one number per pixel").into()
 }
 
-/// The numbers of a picture that [`packed`] has made; `None` for pictures with other channels.
 pub fn unpacked(picture: &DynamicImage) -> Option<Vec<u32>> {
     let halves = picture.as_luma_alpha16()?.as_raw().as_chunks::<2>().0;
     Some(halves.iter().map(|[upper, lower]| u32::from(*upper) << 16 | u32::from(*lower)).collect())
 }
 
-/// A float picture. The bits of each number become an `f32` in all three channels of its pixel.
+/// The bits of each number become an `f32` in all three channels of its pixel.
 pub fn as_floats([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
     let values = numbers.iter().flat_map(|number| [f32::from_bits(*number); 3]).collect();
     Rgb32FImage::from_raw(width, height, values).expect("one number per pixel").into()

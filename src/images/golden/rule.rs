@@ -1,4 +1,4 @@
-//! The rule that accepts a picture, and the number that it compares with a limit.
+//! The rules for accepting a picture that differs from a golden image.
 
 use image::DynamicImage;
 use serde::Serialize;
@@ -9,17 +9,21 @@ use super::mask::Mask;
 use super::measures::{FlipMap, PIXELS_PER_DEGREE};
 use crate::plural::{count, plural};
 
-/// The condition for accepting a picture. Size, channels and bits per channel must always be equal.
+/// Every rule also requires equal size, channels and bits per channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Match {
-    /// All values are equal: for deterministic renderers.
     Exact,
     /// At most `pixels` pixels have a channel that differs by more than `difference`. The unit of `difference` is 1/255
-    /// of full scale, or 1 for floats. Noise passes; a missing triangle fails.
-    Tolerance { difference: f64, pixels: Allowed },
-    /// The mean of FLIP, the visible difference for a person who flips between the pictures, is at most `mean`. FLIP
-    /// does not support floats.
-    Flip { mean: f64, pixels_per_degree: f64 },
+    /// of full scale, or 1 for floats.
+    Tolerance {
+        difference: f64,
+        pixels: Allowed,
+    },
+    /// The mean of FLIP is at most `mean`. FLIP does not support floats.
+    Flip {
+        mean: f64,
+        pixels_per_degree: f64,
+    },
 }
 
 /// The number of pixels that may differ by more than the tolerance.
@@ -31,18 +35,15 @@ pub enum Allowed {
 }
 
 impl Match {
-    /// No channel of any pixel differs by more than `difference`.
     pub fn within(difference: f64) -> Self {
         Self::Tolerance { difference, pixels: Allowed::Pixels(0) }
     }
 
-    /// The mean of FLIP is at most `mean`, at the pixels per degree that the authors of FLIP assume.
     pub fn flip(mean: f64) -> Self {
         Self::Flip { mean, pixels_per_degree: PIXELS_PER_DEGREE }
     }
 
-    /// The number that the rule compares, and its limit; `None` for `Exact`. The pictures must have the same layout,
-    /// and [`Mask::applied`] must have made their masked pixels equal.
+    /// The pictures must have the same layout. [`Mask::applied`] must have made their masked pixels equal.
     pub(super) fn limit(
         self,
         [expected, actual]: [&DynamicImage; 2],
@@ -54,7 +55,7 @@ impl Match {
             Self::Tolerance { difference, pixels } => Some(Limit::Pixels {
                 max_difference: difference,
                 pixels_over: pixels_over(expected, actual, difference),
-                allow_pixels: pixels.of(Layout::of(expected).pixels() - mask.map_or(0, Mask::masked)),
+                allow_pixels: pixels.of(Layout::of(expected).pixels() - mask.map_or(0, Mask::masked_pixels)),
             }),
             Self::Flip { mean, .. } => {
                 flip.map(|flip| Limit::Flip { flip_mean: flip.summary(mask).mean, max_flip: mean })
@@ -81,25 +82,16 @@ impl Allowed {
     }
 }
 
-/// The error of a comparison by FLIP: the pictures have floats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("FLIP needs pictures of 8 or 16 bits per channel, and these are floats: use --max-difference instead")]
 pub struct NoFlip;
 
-/// A compared number and its largest accepted value. The names in JSON are the names of the measures and options.
+/// The field names appear in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Limit {
-    Pixels {
-        max_difference: f64,
-        /// Pixels that differ by more than `max_difference`.
-        pixels_over: usize,
-        allow_pixels: usize,
-    },
-    Flip {
-        flip_mean: f64,
-        max_flip: f64,
-    },
+    Pixels { max_difference: f64, pixels_over: usize, allow_pixels: usize },
+    Flip { flip_mean: f64, max_flip: f64 },
 }
 
 impl Limit {
@@ -110,7 +102,6 @@ impl Limit {
         }
     }
 
-    /// A sentence with the number and its limit, for pictures of this layout.
     pub fn sentence(&self, layout: &Layout) -> String {
         match *self {
             Self::Pixels { max_difference, pixels_over, allow_pixels } => {
@@ -134,7 +125,6 @@ impl Limit {
     }
 }
 
-/// The verb for a number of pixels.
 pub(super) fn differ(pixels: usize) -> &'static str {
     if pixels == 1 { "differs" } else { "differ" }
 }

@@ -12,13 +12,13 @@ use crate::render::{ViewKind, from_pixels, normal_colour, of_colours, shade};
 use crate::scene::{Camera, Scene, View};
 use crate::triangle::{Exact, TriangleTest};
 
-/// The triangle test that renders golden images. It is exact: no hit depends on rounding.
+/// The triangle test that renders golden images. Its hits do not depend on rounding.
 pub const TRIANGLE_TEST: &str = Exact::NAME;
 
 /// Width and height of a golden image of a built-in scene.
 pub const SIZE: [u32; 2] = [160, 160];
 
-/// The views of golden images. Their pixels depend only on the hits, not on the cost of finding them.
+/// The pixels of these views depend only on the hits, not on the cost of finding them.
 pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive];
 
 const REMEDY: &str = "create the golden images with `sahara golden update`";
@@ -30,32 +30,29 @@ pub struct SceneGolden {
     pub size: [u32; 2],
     path: PathBuf,
     shown_path: PathBuf,
-    /// The file's content for a built-in scene; `None` for a golden image in a folder.
+    /// The file's content for a built-in scene. `None` for a golden image in a folder.
     bytes: Option<&'static [u8]>,
-    /// The camera that the file records; `None` for a built-in scene.
+    /// The camera that the file records. `None` for a built-in scene.
     note: Option<String>,
 }
 
-/// The result of [`SceneGolden::update`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Update {
     Same,
     New,
     Changed(Difference),
-    /// Size, channels or bits per channel changed; contains the old layout.
+    /// The old layout, if size, channels or bits per channel changed.
     Layout(Layout),
 }
 
 impl SceneGolden {
-    /// The golden image of a built-in scene: the shaded view in [`SIZE`], whose PNG file has the content `bytes`.
-    /// [`update`](Self::update) writes it to `file` in the source tree `sources`, which may be missing at run time.
+    /// The shaded view of a built-in scene. `bytes` is the content of the PNG file. [`update`](Self::update) writes
+    /// `file` in the source tree `sources`, which may be missing at run time.
     pub fn in_program(bytes: &'static [u8], sources: &Path, file: &Path) -> Self {
         let (path, shown_path) = (sources.join(file), file.into());
         Self { view: ViewKind::Shaded, size: SIZE, path, shown_path, bytes: Some(bytes), note: None }
     }
 
-    /// The golden image of a view in a folder, with the size and camera of `scene`. The file is `NAME.golden.png` for
-    /// the shaded view, `NAME.VIEW.golden.png` for other views.
     pub fn file(folder: &Path, name: &str, view: ViewKind, scene: &Scene) -> Self {
         let view_name = if view == ViewKind::Shaded { String::new() } else { format!(".{}", view.name()) };
         let path = folder.join(format!("{name}{view_name}.golden.png"));
@@ -63,23 +60,21 @@ impl SceneGolden {
         Self { view, size: scene.size, shown_path: path.clone(), path, bytes: None, note }
     }
 
-    /// Whether this program contains the golden image.
     pub fn is_in_program(&self) -> bool {
         self.bytes.is_some()
     }
 
-    /// The path of the file. For a built-in scene, only [`update`](Self::update) reads and writes this file.
+    /// For a built-in scene, only [`update`](Self::update) reads and writes this file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The path for messages: relative to the source tree for a built-in scene, because the absolute path differs
-    /// between machines.
+    /// The path for messages. The path of a built-in scene is relative, because absolute paths differ between machines.
     pub fn display_path(&self) -> &Path {
         &self.shown_path
     }
 
-    /// The golden image, converted for the comparison: packed depths become floats.
+    /// The golden image for the comparison: packed depths become floats.
     ///
     /// # Errors
     /// If the golden image is missing or damaged, or its size or camera differs.
@@ -90,37 +85,33 @@ impl SceneGolden {
         let picture = file::decode(&self.path, &bytes)?;
         let size = [picture.width(), picture.height()];
         if size != self.size {
-            return Err(GoldenError::Size { path: self.path.clone(), golden: size, asked: self.size });
+            return Err(GoldenError::Size { path: self.path.clone(), golden: size, requested: self.size });
         }
         match (file::note(&bytes), &self.note) {
-            (Some(golden), Some(asked)) if golden != asked => {
-                let [golden, asked] = [golden, asked].map(String::from);
-                Err(GoldenError::Camera { path: self.path.clone(), golden, asked })
+            (Some(golden), Some(requested)) if golden != requested => {
+                let [golden, requested] = [golden, requested].map(String::from);
+                Err(GoldenError::Camera { path: self.path.clone(), golden, requested })
             }
             _ => Ok(self.comparable(picture)),
         }
     }
 
-    /// The picture that `accel` renders, converted for the comparison like [`expected`](Self::expected).
     pub fn drawn(&self, scene: &Scene, accel: &dyn DynAccel) -> DynamicImage {
         self.comparable(self.picture(scene, accel))
     }
 
-    /// Like [`drawn`](Self::drawn), but renders only the pixel of `ray`.
     pub fn drawn_pixel(&self, scene: &Scene, accel: &dyn DynAccel, ray: &Ray) -> DynamicImage {
         self.comparable(draw(scene, accel, self.view, [1, 1], &[*ray]))
     }
 
-    /// The primary ray of a pixel.
     pub fn ray(&self, scene: &Scene, [column, row]: [u32; 2]) -> Ray {
         let pixel = row * self.size[0] + column;
         scene.primary_rays(self.size, View::CENTRE, pixel..pixel + 1)[0]
     }
 
-    /// Renders `scene` with `accel` and compares the picture with the golden image. If they differ, writes a page to
-    /// the folder `SCENE-STRUCTURE` in `out`.
+    /// If the pictures differ, writes a page to the folder `SCENE-STRUCTURE` in `out`.
     ///
-    /// A built-in scene must be loaded with its generated meshes, even if real meshes have been downloaded.
+    /// A built-in scene must have its generated meshes, not downloaded meshes.
     ///
     /// # Errors
     /// If the golden image is missing or damaged, its size or camera differs, or the pictures differ.
@@ -131,11 +122,9 @@ impl SceneGolden {
         failure::check(self.display_path(), &label, pictures, Match::Exact, self.view.into(), &shown, REMEDY)
     }
 
-    /// Renders the golden image and writes it if it differs from the existing file.
-    ///
     /// # Errors
-    /// If the file cannot be written, if the source tree of a built-in scene is missing, or if `overwrite` is
-    /// [`Overwrite::Own`] and another program wrote the existing file.
+    /// If the file cannot be written, or the source tree of a built-in scene is missing. With [`Overwrite::Own`], also
+    /// if another program wrote the existing file.
     pub fn update(&self, scene: &Scene, accel: &dyn DynAccel, overwrite: Overwrite) -> Result<Update, GoldenError> {
         if self.bytes.is_some() && !self.path.parent().is_some_and(Path::is_dir) {
             return Err(GoldenError::NoSources);
@@ -159,8 +148,7 @@ impl SceneGolden {
         Ok(Difference::between(&old, &new).map_or(Update::New, Update::Changed))
     }
 
-    /// The values of a picture with a single pixel. A miss is infinity in the views depth and primitive, the background
-    /// colour in the view shaded, and black in the view normal.
+    /// The values of a picture with a single pixel. A miss is infinity in the views depth and primitive.
     pub fn pixel_values(&self, pixel: &DynamicImage) -> Vec<f64> {
         match (self.view, numbers::unpacked(pixel).as_deref()) {
             (ViewKind::Primitive, Some(&[numbers::MISS])) => vec![f64::INFINITY],
@@ -174,15 +162,12 @@ impl SceneGolden {
         draw(scene, accel, self.view, self.size, &rays)
     }
 
-    /// Converts a picture for the comparison: packed depths become floats, and pictures of all other views do not
-    /// change.
     fn comparable(&self, picture: DynamicImage) -> DynamicImage {
         let numbers = if self.view == ViewKind::Depth { numbers::unpacked(&picture) } else { None };
         numbers.map_or(picture.clone(), |numbers| numbers::as_floats([picture.width(), picture.height()], &numbers))
     }
 }
 
-/// The existing files that [`SceneGolden::update`] may replace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite {
     /// Files that [`SceneGolden::update`] has written.
@@ -196,7 +181,6 @@ fn camera_note(camera: &Camera) -> String {
     format!("--camera '{} {} {}'", point(camera.eye()), point(camera.target()), camera.vertical_fov())
 }
 
-/// The picture with one pixel per ray. Depths and numbers of primitives are [packed](numbers::packed).
 fn draw(scene: &Scene, accel: &dyn DynAccel, view: ViewKind, size: [u32; 2], rays: &[Ray]) -> DynamicImage {
     if view == ViewKind::Shaded {
         return of_colours(size, &shade(scene, accel, rays)).into();
@@ -260,7 +244,6 @@ mod tests {
         assert!(error.to_string().contains("Cube with sah-kd:leaf=1"), "{error}");
         assert_eq!(golden.update(&scene, &tree, Overwrite::Own).unwrap(), Update::Changed(**difference));
 
-        // The same colours with alpha or 16 bits per channel are a different picture.
         let drawn = golden.expected().unwrap();
         for other in [DynamicImage::from(drawn.to_rgba8()), drawn.to_rgb16().into()] {
             file::write(golden.path(), &other).unwrap();

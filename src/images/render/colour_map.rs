@@ -4,8 +4,7 @@ use image::RgbImage;
 
 use super::picture::from_pixels;
 
-/// Nine equidistant colours of the map "inferno". Their lightness increases evenly, also in greyscale and for
-/// colour-blind people.
+/// Nine equidistant colours of the map "inferno".
 ///
 /// # References
 /// Smith, van der Walt, Firing: the colour maps of Matplotlib 1.5, 2015 (dedicated to the public domain, CC0).
@@ -21,9 +20,7 @@ const INFERNO: [[u8; 3]; 9] = [
     [252, 255, 164],
 ];
 
-/// The colour of `cost` on a logarithmic scale from 0 to `hottest`; higher costs get the colour of `hottest`.
-///
-/// The costs of two structures can differ by a factor of a hundred. A linear scale would show the cheaper one in black.
+/// The scale is logarithmic, because the costs of two structures can differ by a factor of a hundred.
 pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
     // The logarithm of `libm` is the same on every machine.
     ramp(match hottest {
@@ -32,7 +29,7 @@ pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
     })
 }
 
-/// The colour of the map at `share`: 0 is its first colour, 1 its last.
+/// The colour of the map at `share`, from 0 to 1.
 pub fn ramp(share: f64) -> [u8; 3] {
     // 255 steps between neighbouring colours.
     let steps = ((INFERNO.len() - 1) * 255) as f64;
@@ -45,7 +42,6 @@ pub fn ramp(share: f64) -> [u8; 3] {
     })
 }
 
-/// Adds a bar with the colours of all costs from 0 to `hottest` below the picture.
 pub fn with_bar(picture: RgbImage, hottest: u64) -> RgbImage {
     let (width, bar) = (picture.width(), bar(picture.width(), hottest));
     let height = picture.height() + bar.height();
@@ -53,7 +49,6 @@ pub fn with_bar(picture: RgbImage, hottest: u64) -> RgbImage {
     RgbImage::from_raw(width, height, rows).expect("both have one width")
 }
 
-/// The bar, `width` pixels wide. Marks below it show the powers of ten, from 1.
 fn bar(width: u32, hottest: u64) -> RgbImage {
     let black = vec![[0; 3]; width as usize];
     let (last, whole) = (f64::from(width.max(2) - 1), libm::log1p(hottest as f64));
@@ -78,7 +73,6 @@ mod tests {
         assert_eq!(row(5)[50], heat(31, 999), "the root of 1000, less one, is in the middle");
         let marks: Vec<usize> = (0..101).filter(|&x| row(14)[x] != [0; 3]).collect();
         assert_eq!(marks, [10, 35, 67], "1, 10 and 100 of 999");
-        // The smallest scale and the smallest width.
         assert_eq!(super::bar(1, 1).dimensions(), (1, 15));
 
         let picture = RgbImage::from_pixel(101, 2, image::Rgb([7; 3]));

@@ -1,4 +1,4 @@
-//! A picture that shows the pixels at which the hits of a structure differ from the exact hits.
+//! A picture that marks the pixels with wrong hits.
 
 use image::RgbImage;
 use rayon::prelude::*;
@@ -17,7 +17,6 @@ pub struct ExactPicture {
 }
 
 impl ExactPicture {
-    /// Computes the exact hits. This takes a few microseconds per pixel.
     pub fn new(scene: &Scene, size: [u32; 2]) -> Self {
         let oracle = Oracle::new(&scene.mesh);
         let rays = primary(scene, size);
@@ -25,20 +24,18 @@ impl ExactPicture {
         Self { size, rays, truths }
     }
 
-    /// Compares a structure's hit at a pixel with the exact hit, by [`DepthRule::STRICT`].
     pub fn outcome(&self, pixel: usize, hit: Option<Hit>) -> Outcome {
         outcome(self.truths[pixel].as_ref(), hit, DepthRule::STRICT)
     }
 }
 
-/// The hits of the primary rays of a picture, each compared with the exact hit.
 pub struct ErrorMap {
     size: [u32; 2],
     pixels: Vec<(Outcome, Option<Hit>)>,
 }
 
-/// The outcomes that are painted as errors, with colours that colour-blind people can distinguish (Okabe, Ito: Color
-/// universal design, 2008). Correct hits are grey, correct misses are black.
+/// The outcomes that are painted as errors. Colour-blind people can distinguish the colours: Okabe, Ito, Color
+/// universal design, 2008.
 const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::Missed, "missed", "vermilion", [213, 94, 0]),
     (Outcome::FalseHit, "false hit", "yellow", [240, 228, 66]),
@@ -46,7 +43,7 @@ const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::WrongPrimitive, "wrong primitive at the right depth", "pink", [204, 121, 167]),
 ];
 
-/// The name of an outcome that is painted as an error; `None` for all other outcomes.
+/// `None` if the outcome is not painted as an error.
 pub fn error_name(outcome: Outcome) -> Option<&'static str> {
     PAINTED.iter().find(|(painted, ..)| *painted == outcome).map(|(_, name, ..)| *name)
 }
@@ -55,14 +52,11 @@ pub fn error_name(outcome: Outcome) -> Option<&'static str> {
 const BRIGHTEST: f32 = 90.0;
 
 impl ErrorMap {
-    /// Compares the hits of `accel` for the primary rays of `scene` with the exact hits.
     pub fn new(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Self {
         let exact = ExactPicture::new(scene, size);
         Self::of(&exact, accel.closest_by_chunks(&exact.rays, 1024))
     }
 
-    /// Compares `hits`, one per pixel, with the exact hits.
-    ///
     /// # Panics
     /// If there are more or fewer hits than pixels.
     pub fn of(exact: &ExactPicture, hits: impl IntoIterator<Item = Option<Hit>>) -> Self {
@@ -72,29 +66,25 @@ impl ErrorMap {
         Self { size: exact.size, pixels }
     }
 
-    /// The pixels that are painted as errors, row by row.
     pub fn errors(&self) -> impl Iterator<Item = usize> {
         (0..self.pixels.len()).filter(move |&pixel| error_name(self.pixels[pixel].0).is_some())
     }
 
-    /// The number of pixels with this outcome.
     pub fn count(&self, outcome: Outcome) -> usize {
         self.pixels.iter().filter(|(other, _)| *other == outcome).count()
     }
 
-    /// A sentence with the meaning of each colour and its number of pixels.
     pub fn legend(&self) -> String {
         let painted = PAINTED.map(|(outcome, name, colour, _)| format!("{name} {} ({colour})", self.count(outcome)));
         let right = self.count(Outcome::Right) + self.count(Outcome::RightMiss);
         format!("{}, correct {right} (grey, brighter where nearer); errors are three pixels wide", painted.join(", "))
     }
 
-    /// The errors: name, number of pixels and colour (red, green, blue).
+    /// Name, number of pixels, and colour (red, green, blue) of each error.
     pub fn colours(&self) -> [(&'static str, usize, [u8; 3]); 4] {
         PAINTED.map(|(outcome, name, _, colour)| (name, self.count(outcome), colour))
     }
 
-    /// The picture: errors in colours, each three pixels wide and high, over a dim depth view of all other hits.
     pub fn picture(&self) -> RgbImage {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
         let nearest = self.pixels.iter().filter_map(right).fold(f32::INFINITY, |near, hit| near.min(hit.t));
@@ -105,8 +95,7 @@ impl ErrorMap {
             PAINTED.iter().find(|(outcome, ..)| *outcome == pixel.0).map_or([grey; 3], |(.., colour)| *colour)
         };
         let mut colours: Vec<[u8; 3]> = self.pixels.iter().map(colour).collect();
-        // A single pixel is too small to see in a large picture. An error also colours its eight neighbours, except
-        // neighbours that are errors.
+        // An error also colours its eight neighbours, because a single pixel is hard to see.
         let [width, height] = self.size.map(i64::from);
         for error in self.errors() {
             let (x, y) = (error as i64 % width, error as i64 / width);
@@ -147,7 +136,6 @@ mod tests {
         assert!(picture.pixels().all(|Rgb([r, g, b])| r == g && g == b && f32::from(*r) <= BRIGHTEST));
         assert_eq!(picture.get_pixel(0, 0), &Rgb([0; 3]));
 
-        // Build the structure over one mesh and compute the exact hits over another: one of the two meshes is empty.
         let empty = Arc::new(Mesh::new(vec![], vec![]).unwrap());
         let nothing = KdTree::<Exact>::build(&empty, &KdConfig::SAH).unwrap();
         let missed = ErrorMap::new(&scene, &nothing, size);

@@ -1,4 +1,4 @@
-//! Renders Phong materials, hard shadows and mirrors, as in the course for which the source report was written.
+//! Renders Phong materials, hard shadows and mirrors, like the course of the source report.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -7,27 +7,25 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Light, Material, Scene, Surface};
 
-/// The numbers of primary, mirror and shadow rays of an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCounts {
-    /// Closest hit, one per pixel.
+    /// One closest-hit ray per pixel.
     pub primary: u64,
-    /// Closest hit, one for each hit on a mirror material, up to the recursion limit.
+    /// One closest-hit ray per hit on a mirror material, up to the recursion limit.
     pub mirror: u64,
-    /// Any hit, one for each light and each hit of a primary or mirror ray.
+    /// One any-hit ray per light and per hit of a primary or mirror ray.
     pub shadow: u64,
 }
 
-/// The number of pixels whose rays form a batch.
+/// Pixels per batch.
 const CHUNK: usize = 4096;
 
-/// The linear RGB colours of primary rays. `accel` must be built over the scene's mesh. It traces rays in batches of up
-/// to 4,096 pixels; a batch has one query and one number of reflections. Batches and threads do not change the colours.
+/// The linear RGB colours of primary rays. `accel` must be built over the scene's mesh. Batches and threads do not
+/// change the colours.
 pub fn shade(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Vec3> {
     rays.par_chunks(CHUNK).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
 }
 
-/// The numbers of rays that [`shade`] traces.
 pub fn count_rays(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> RayCounts {
     let counts = rays.par_chunks(CHUNK).map(|chunk| trace(scene, accel, chunk.to_vec()).1);
     counts.reduce(RayCounts::default, |a, b| RayCounts {
@@ -48,7 +46,6 @@ struct MirrorLevel {
 fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>, RayCounts) {
     let mut counts = RayCounts { primary: rays.len() as u64, ..RayCounts::default() };
 
-    // Forward: trace level by level. The mirror rays of a level are the rays of the next level.
     let mut levels = vec![];
     while !rays.is_empty() {
         let follow = (levels.len() as u32) < scene.recursion_limit;
@@ -58,7 +55,7 @@ fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>,
         rays = mirrored;
     }
 
-    // Backward: clamp the colour of each ray, multiply it by the mirror weight, and add it to the parent's colour.
+    // The colour of a mirror ray is clamped before it is multiplied by the weight.
     let mut seen: Vec<Vec3> = vec![];
     for mut level in levels.into_iter().rev() {
         for ((parent, weight), colour) in level.mirrors.into_iter().zip(seen) {
@@ -70,7 +67,6 @@ fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>,
     (seen, counts)
 }
 
-/// Shades the hits of one level. If `follow` is set, also returns the mirror rays that start at these hits.
 fn shade_level(
     scene: &Scene,
     accel: &dyn DynAccel,
@@ -82,7 +78,6 @@ fn shade_level(
     let surfaces: Vec<(usize, Hit, Surface)> =
         hits.iter().enumerate().filter_map(|(i, hit)| hit.map(|hit| (i, hit, scene.surface(&rays[i], hit)))).collect();
 
-    // One shadow ray per hit and light.
     let shadow_rays: Vec<Ray> = surfaces
         .iter()
         .flat_map(|(_, hit, surface)| scene.lights.iter().map(|light| scene.shadow_ray(hit.prim, surface, light)))
@@ -115,7 +110,7 @@ fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -
     let distance = to_light.length();
     let to_light = to_light / distance;
     let facing = normal.dot(to_light);
-    // If the light is at the surface point, `facing` is NaN, and the light adds nothing.
+    // If the light is at the surface point, `facing` is NaN.
     if facing.is_nan() || facing <= 0.0 {
         return Vec3::ZERO;
     }
@@ -126,7 +121,6 @@ fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -
     light.at(distance) * (material.diffuse * facing + material.specular * highlight)
 }
 
-/// Divides the colour by its largest component if this exceeds 1, then clamps it to 0..1.
 fn balance(colour: Vec3) -> Vec3 {
     let largest = colour.max_element();
     let colour = if largest > 1.0 { colour / largest } else { colour };

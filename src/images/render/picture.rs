@@ -18,8 +18,7 @@ pub fn from_pixels([width, height]: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage 
     RgbImage::from_raw(width, height, pixels.into_flattened()).expect("all pixels are there")
 }
 
-/// Converts linear RGB colours to a picture: each channel is clamped to 0..1, multiplied by 255 and rounded. NaN
-/// becomes 0. There is no gamma curve.
+/// Converts linear RGB colours to a picture, without a gamma curve. NaN becomes 0.
 ///
 /// # Panics
 /// Like [`from_pixels`].
@@ -36,8 +35,6 @@ pub fn png_encoder<W: Write>(file: W) -> PngEncoder<W> {
     PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Adaptive)
 }
 
-/// The bytes of a PNG file.
-///
 /// # Panics
 /// If the picture has no pixels.
 pub fn png(picture: &RgbImage) -> Vec<u8> {
@@ -46,7 +43,6 @@ pub fn png(picture: &RgbImage) -> Vec<u8> {
     bytes
 }
 
-/// The rays through the centres of all pixels, row by row.
 pub fn primary(scene: &Scene, size: [u32; 2]) -> Vec<Ray> {
     scene.primary_rays(size, View::CENTRE, 0..size[0] * size[1])
 }

@@ -1,4 +1,4 @@
-//! Compares ray counts with the source report's counts. This tests the scenes, the meshes and the renderer.
+//! Compares ray counts with the counts in the source report.
 
 use super::count_rays;
 use super::picture::primary;
@@ -7,23 +7,21 @@ use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::tests::of_the_report;
 use crate::triangle::Exact;
 
-/// The numbers of mirror and shadow rays in a recount with the course's renderer, and the total in the report.
+/// `mirror` and `shadow` are from a recount with the course's renderer. `report` is the total in the report.
 struct Known {
     scene: &'static str,
     mirror: u64,
     shadow: u64,
     report: u64,
-    /// The largest accepted difference of the total from the report's total.
+    /// The largest accepted difference of the total from `report`.
     within: u64,
     /// The largest accepted difference of mirror and shadow rays from the recount.
     recount: u64,
 }
 
-/// Two scenes do not match the recount exactly. Whether a ray hits at an edge depends on the rounding of the triangle
-/// test. The report's test is unknown; here the test is exact. In Infinitycandy, mirrors multiply the few rays at
-/// edges. In Cornellbox, walls meet at edges, and the back wall is a mirror, which the report does not mention. With
-/// the mirror, our total differs by 8 from the report's total; the recount's total differs by 29. Without the mirror,
-/// 38,495 mirror rays and their shadow rays would be missing. The bounds below are observed, not derived.
+/// Hits at edges depend on the rounding of the triangle test, and the report's test is unknown. The accepted
+/// differences are therefore observed, not derived. The back wall of Cornellbox is a mirror, which the report does not
+/// mention.
 #[rustfmt::skip]
 const KNOWN: &[Known] = &[
     Known { scene: "Cube", mirror: 0, shadow: 20_648, report: 282_793, within: 1, recount: 0 },

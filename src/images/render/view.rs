@@ -12,26 +12,20 @@ use crate::names::{Unknown, find, named_enum};
 use crate::scene::Scene;
 
 named_enum! {
-    /// The content of a picture.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum ViewKind {
-        /// Shading with materials, shadows and mirrors: see [`shade`].
         Shaded = "shaded",
-        /// Reciprocal distance of the hit, from white for the nearest hit in the picture to dark grey for the farthest;
-        /// misses are black.
+        /// Reciprocal distance: white for the nearest hit in the picture, dark grey for the farthest. Misses are black.
         Depth = "depth",
-        /// Shading normal: x, y and z from -1 to 1 become red, green and blue; misses are black.
+        /// Shading normal: x, y and z from -1 to 1 become red, green and blue. Misses are black.
         Normal = "normal",
-        /// A unique colour for each primitive, the same in every picture; misses are black.
+        /// A unique colour for each primitive, the same in every picture. Misses are black.
         Primitive = "primitive",
-        /// Triangle tests and traversal steps of the closest-hit query, from black to pale yellow: see [`costs`].
         Heat = "heat",
-        /// Differences from the exact hits: see [`ErrorMap`].
         Error = "error",
     }
 }
 
-/// The error of the heat view: the structure does not report triangle tests and traversal steps.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the structure does not count tests and steps, which the heat view shows: choose another view or structure")]
 pub struct ViewError;
@@ -44,10 +38,8 @@ impl FromStr for ViewKind {
     }
 }
 
-/// Draws a view of `scene` with `size` pixels. `accel`, built over the scene's mesh, traces the rays.
-///
-/// `hottest` is the cost that the heat view shows brightest; other views ignore it. To compare structures, use one
-/// number for all, for example the maximum of their [`hottest`] costs.
+/// `accel` must be built over the scene's mesh. `hottest` is the cost that the heat view shows brightest. To compare
+/// structures, use one number for all of them.
 ///
 /// # Errors
 /// If `view` is the heat view and the structure does not report triangle tests and traversal steps.
@@ -80,7 +72,7 @@ pub fn draw(
     })
 }
 
-/// The sum of triangle tests and traversal steps of the closest-hit query of each pixel, row by row.
+/// The sum of triangle tests and traversal steps for each pixel, row by row.
 ///
 /// # Errors
 /// If the structure does not report triangle tests and traversal steps.
@@ -91,7 +83,7 @@ pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<
     Ok(Work::of(accel, &primary(scene, size)).iter().map(Work::cost).collect())
 }
 
-/// The scale of the heat view: the 99.5th percentile of the costs, at least 1. It ignores a few extreme pixels.
+/// The scale of the heat view. The 99.5th percentile ignores a few extreme pixels.
 pub fn hottest(costs: &[u64]) -> u64 {
     let mut sorted = costs.to_vec();
     sorted.sort_unstable();
@@ -99,7 +91,7 @@ pub fn hottest(costs: &[u64]) -> u64 {
     sorted.get(place).copied().unwrap_or(1).max(1)
 }
 
-/// Width and height of a picture of the scene whose longer side has `longest` pixels.
+/// The longer side has `longest` pixels.
 pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
     let [width, height] = scene.size;
     let most = width.max(height).max(1);
@@ -112,12 +104,11 @@ pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
 }
 
-/// The colour of a hit of `ray` in the normal view.
 pub fn normal_colour(scene: &Scene, ray: &Ray, hit: Hit) -> [u8; 3] {
     (scene.surface(ray, hit).shading_normal * 0.5 + 0.5).to_array().map(quantised)
 }
 
-/// The depth view of distances, one per pixel; a miss has an infinite distance.
+/// `depths` has one distance per pixel. A miss has an infinite distance.
 pub fn depth_picture(size: [u32; 2], depths: &[f32]) -> RgbImage {
     let seen = depths.iter().copied().filter(|t| t.is_finite());
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));

@@ -5,16 +5,14 @@ use rayon::prelude::*;
 use crate::accel::{Counts, DynAccel};
 use crate::geometry::{Hit, Ray};
 
-/// The counts and the hit of the closest-hit query of one ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work {
-    /// The counts that the structure reports.
     pub counts: Counts,
     pub hit: Option<Hit>,
 }
 
 impl Work {
-    /// Traces each of `rays` separately with `accel` and returns its counts and hit.
+    /// Traces each of `rays` separately.
     pub fn of(accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Self> {
         let work = |ray: &Ray| {
             let (mut hit, mut counts) = ([None], Counts::default());
@@ -24,7 +22,7 @@ impl Work {
         rays.par_iter().map(work).collect()
     }
 
-    /// Triangle tests plus traversal steps: the cost that the heat view shows.
+    /// The cost that the heat view shows.
     pub fn cost(&self) -> u64 {
         self.counts.tests + self.counts.steps()
     }

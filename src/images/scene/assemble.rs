@@ -9,13 +9,12 @@ use crate::escaped::Escaped as _;
 use crate::geometry::{Mesh, Transform};
 use crate::names::suggestion;
 
-/// The name of a scene file, and the folders of the files that it names.
 pub(super) struct Origin<'a> {
     /// The name of the scene file in messages.
     pub file: &'a str,
-    /// The folder that paths in the file are relative to; `None` for a built-in scene.
+    /// Paths in the file are relative to this folder. `None` for a built-in scene.
     pub folder: Option<&'a Path>,
-    /// The folder of real meshes; `None` to use only stand-ins.
+    /// The folder of downloaded meshes. With `None`, the scene uses only stand-in meshes.
     pub real_meshes: Option<&'a Path>,
 }
 
@@ -26,11 +25,11 @@ impl Origin<'_> {
 }
 
 impl Scene {
-    /// Reads a scene file. The scene uses the real meshes in the folder `real_meshes`; with `None`, only stand-ins.
+    /// Reads a scene file. `real_meshes` is the folder of downloaded meshes. With `None`, the scene uses only stand-in
+    /// meshes.
     ///
     /// # Errors
-    /// If the file cannot be read, a key or value is invalid, a mesh cannot be loaded, or a real mesh without a
-    /// stand-in is missing.
+    /// If the file cannot be read, a key or value is invalid, or a mesh is missing or cannot be loaded.
     pub fn read(path: &Path, real_meshes: Option<&Path>) -> Result<Self, SceneError> {
         let text =
             std::fs::read_to_string(path).map_err(|cause| SceneError::Unreadable { file: path.into(), cause })?;
@@ -38,11 +37,11 @@ impl Scene {
         Self::from_text(&text, &path.escaped().to_string(), folder, real_meshes)
     }
 
-    /// Like [`read`](Self::read), but takes the text of a scene file, which error messages call `file`. Paths in the
-    /// text are relative to `folder`; without a folder, paths are errors.
+    /// Reads the text of a scene file. Error messages call the text `file`. Paths in the text are relative to `folder`.
+    /// Without a folder, paths are errors.
     ///
     /// # Errors
-    /// As `read`.
+    /// As [`read`](Self::read).
     pub fn from_text(
         text: &str,
         file: &str,
@@ -53,7 +52,6 @@ impl Scene {
     }
 }
 
-/// Loads or generates all meshes, transforms them to world space and checks the scene.
 pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, SceneError> {
     let mut parts = SceneBuilder::new(file);
     for (i, object) in file.objects.iter().enumerate() {
@@ -96,7 +94,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
 
 #[derive(Default)]
 struct SceneBuilder {
-    /// The objects that were already added, in world space, with unit normals.
+    /// The added objects, in world space, with unit normals.
     all: Model,
     stand_ins: Vec<String>,
     /// Whether a real mesh replaces a stand-in.
@@ -132,7 +130,7 @@ impl SceneBuilder {
 
         let first = self.all.normals.len();
         self.all.normals.extend(model.normals.iter().map(|&n| placement.normal(n)));
-        // Keep `normal_indices` empty until a mesh has normals.
+        // `normal_indices` stays empty until a mesh has normals.
         if !model.normal_indices.is_empty() {
             let flat = |n: &[u32; 3]| n.contains(&Model::FLAT);
             let placed = |n| if flat(n) { CornerNormals::FLAT } else { shifted(n, first) };
@@ -144,7 +142,6 @@ impl SceneBuilder {
         self.paint(object, &model, key, origin)
     }
 
-    /// The mesh of `object` and its placement: the real mesh if its file exists, or else `terrain` or `mesh`.
     fn choose(&mut self, object: &ObjectFile, key: &str, origin: &Origin) -> Result<(Model, Transform), SceneError> {
         if let (Some(real), Some(folder)) = (&object.real, origin.real_meshes) {
             let path = folder.join(&real.file);
@@ -203,7 +200,7 @@ impl SceneBuilder {
     }
 
     fn paint(&mut self, object: &ObjectFile, model: &Model, key: &str, origin: &Origin) -> Result<(), SceneError> {
-        // The materials of the scene file come first. Parsing has checked that each name exists.
+        // The materials of the scene file come first. The parser has checked that each name exists.
         let number = |materials: &[Material], name: &str| {
             materials.iter().position(|m| m.name == name).expect("the file names its materials") as u32
         };
@@ -241,7 +238,7 @@ impl SceneBuilder {
     }
 }
 
-/// Appends `more` to `all`, without a copy if `all` is empty.
+/// Avoids a copy if `all` is empty.
 fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
     if all.is_empty() {
         *all = more;
@@ -267,7 +264,7 @@ fn load_file(path: &Path, key: &str, origin: &Origin) -> Result<Model, SceneErro
     load(path).map_err(|cause| SceneError::Load { file: origin.file.into(), key: key.into(), cause })
 }
 
-/// Removes the triangles whose material is in `names`. All vertices and materials stay in the model.
+/// Removes the triangles of these materials. All vertices and materials stay in the model.
 fn without_materials(model: &mut Model, names: &[String]) {
     let dropped: Vec<bool> = model.materials.iter().map(|m| names.contains(&m.name)).collect();
     let of = |t: usize| model.material_of.get(t).map_or(0, |&m| m as usize);

@@ -13,7 +13,6 @@ pub struct Camera {
     vertical_fov: f32,
 }
 
-/// The reason why [`Camera::new`] rejects its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CameraError {
     #[error("the camera's eye, target and up must be finite numbers")]
@@ -27,10 +26,10 @@ pub enum CameraError {
 }
 
 impl Camera {
-    /// A camera at `eye` that looks at `target`; `vertical_fov` is the full vertical angle in degrees.
+    /// `vertical_fov` is the full vertical angle in degrees.
     ///
     /// # Errors
-    /// If the arguments do not define a view, see [`CameraError`].
+    /// If the arguments do not define a view: see [`CameraError`].
     pub fn new(eye: Vec3, target: Vec3, up: Vec3, vertical_fov: f32) -> Result<Self, CameraError> {
         if !(eye.is_finite() && target.is_finite() && up.is_finite()) {
             return Err(CameraError::NotFinite);
@@ -58,12 +57,10 @@ impl Camera {
         self.up
     }
 
-    /// The full vertical angle in degrees.
     pub fn vertical_fov(&self) -> f32 {
         self.vertical_fov
     }
 
-    /// The view of the camera for an image of `[width, height]` pixels.
     pub fn view(&self, size: [u32; 2]) -> View {
         let eye = self.eye.as_dvec3();
         let forward = (self.target.as_dvec3() - eye).normalize();
@@ -75,9 +72,9 @@ impl Camera {
     }
 }
 
-/// A camera with an image size; it makes the rays through the pixels.
+/// A camera with an image size.
 ///
-/// Directions are computed in `f64` and rounded once, so the rays have the same bits on every machine.
+/// Directions are computed in `f64` and rounded once. The rays have the same bits on every machine.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     eye: Vec3,
@@ -93,10 +90,8 @@ impl View {
     /// The offset from the top left corner of a pixel to its centre.
     pub const CENTRE: Vec2 = Vec2::splat(0.5);
 
-    /// The ray from the eye through the point `offset` of pixel (`x`, `y`), with a direction of unit length.
-    ///
-    /// Pixel (0, 0) is at the top left. `offset` (0, 0) is the top left corner of the pixel, [`View::CENTRE`] its
-    /// middle, (1, 1) its bottom right corner.
+    /// The ray through a point of pixel (`x`, `y`), with a direction of unit length. Pixel (0, 0) is at the top left.
+    /// `offset` (0, 0) is the top left corner of the pixel, and (1, 1) is the bottom right corner.
     pub fn ray(&self, x: u32, y: u32, offset: Vec2) -> Ray {
         let across = (f64::from(x) + f64::from(offset.x) - self.half_size.x) * self.pixel;
         let upward = (self.half_size.y - f64::from(y) - f64::from(offset.y)) * self.pixel;

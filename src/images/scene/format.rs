@@ -8,14 +8,14 @@ use super::SceneError;
 use crate::scene::Material;
 use crate::scene::meshes::Terrain;
 
-/// The contents of a scene file. [`SceneFile::parse`] checks the values, [`super::Scene::read`] makes the scene.
+/// The contents of a scene file. [`super::Scene::read`] makes the scene.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     pub name: String,
     /// A note on the origin of the scene.
     pub source: Option<String>,
-    /// The expected number of triangles. It is not checked if a real mesh replaces a generated mesh.
+    /// The expected number of triangles. This number is not checked if a real mesh replaces a generated mesh.
     pub triangles: Option<usize>,
     /// Width and height of the image, 1 to 16384.
     #[serde(default = "default_size")]
@@ -29,9 +29,8 @@ pub struct SceneFile {
     /// See [`super::Scene::shadow_terminator_fix`].
     #[serde(default = "yes")]
     pub shadow_terminator_fix: bool,
-    /// The origin of every ray, including camera rays, moves by this distance along the ray direction. The source
-    /// report's course avoids self-intersection in this way, and the report's ray counts depend on it. Without this
-    /// key, the origin of a secondary ray moves by the error bound of its hit point: see [`super::Offset`].
+    /// Moves the origin of every ray, including camera rays, by this distance along the ray. The ray counts of the
+    /// source report depend on this offset. Without this key, only secondary rays move: see [`super::Offset`].
     pub ray_offset: Option<f32>,
     pub camera: CameraFile,
     #[serde(default)]
@@ -41,7 +40,6 @@ pub struct SceneFile {
     pub materials: BTreeMap<String, MaterialFile>,
 }
 
-/// The camera: see [`super::Camera`].
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraFile {
@@ -53,7 +51,7 @@ pub struct CameraFile {
     pub vertical_fov: f32,
 }
 
-/// A light: see [`super::Light`].
+/// See [`super::Light`].
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LightFile {
@@ -65,7 +63,7 @@ pub struct LightFile {
     pub qat: f32,
 }
 
-/// A material: see [`Material`]. Textures are accepted and ignored, with a note in the scene.
+/// See [`Material`]. Textures are ignored, with a note in the scene.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case, reason = "the keys have the names of MTL")]
@@ -94,56 +92,52 @@ impl MaterialFile {
     }
 }
 
-/// A mesh and its placement.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectFile {
-    /// The name of a generator ([`super::meshes::GENERATORS`]), or a path relative to the folder of the scene file;
-    /// `None` if the object has only `real` or `terrain`.
+    /// The name of a generator of [`super::meshes::GENERATORS`], or a path relative to the folder of the scene file.
     pub mesh: Option<String>,
     /// Generated ground, instead of a mesh.
     pub terrain: Option<Terrain>,
-    /// The material of the whole mesh. By default, the mesh keeps its own materials; a mesh without materials is grey.
+    /// The material of the whole mesh. By default, the mesh keeps its own materials.
     pub material: Option<String>,
-    /// Maps the names of the mesh's own materials to names of materials in the scene file.
+    /// Maps names of materials of the mesh to names of materials in the scene file.
     pub materials: Option<BTreeMap<String, String>>,
-    /// The rotation in degrees; `sca` is the scale, `tra` the translation: see [`crate::geometry::Transform::new`].
+    /// Rotation in degrees, scale and translation: see [`crate::geometry::Transform::new`].
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
     pub sca: [f32; 3],
     #[serde(default)]
     pub tra: [f32; 3],
-    /// The name of the mesh that `mesh` replaces.
     pub stands_in_for: Option<String>,
-    /// The mesh file that replaces `mesh` if the file exists; without `mesh`, the file must exist.
+    /// This mesh file replaces `mesh` if the file exists. Without `mesh`, the file must exist.
     pub real: Option<RealMesh>,
 }
 
-/// A mesh file that is not part of the project: its source and its placement.
+/// A mesh file that is not part of the project.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RealMesh {
-    /// The name of the file in the folder of real meshes.
+    /// The name of the file in the folder of downloaded meshes.
     pub file: String,
-    /// The address of the file; with `unpack`, the address of an archive.
+    /// The address of the file, or the address of an archive if `unpack` is set.
     pub url: String,
     pub unpack: Option<String>,
     pub licence: String,
     pub origin: String,
-    /// SHA-256 of the file, in hexadecimal. Without it, `sahara fetch` does not download the file.
+    /// SHA-256 in hexadecimal. `sahara fetch` does not download a file without this hash.
     pub sha256: Option<String>,
     pub bytes: Option<u64>,
-    /// The number of triangles of the mesh in the source report, for scenes of the report.
+    /// The number of triangles in the source report.
     pub reported_triangles: Option<usize>,
-    /// `rot`, `sca` and `tra` transform the real mesh. The transformation in [`ObjectFile`] applies only to its `mesh`.
+    /// This placement replaces the placement in [`ObjectFile`].
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
     pub sca: [f32; 3],
     #[serde(default)]
     pub tra: [f32; 3],
-    /// Materials of the mesh file; their triangles are left out.
     #[serde(default)]
     pub exclude_materials: Vec<String>,
 }
@@ -169,7 +163,7 @@ fn yes() -> bool {
 }
 
 impl SceneFile {
-    /// Parses `text`, the content of `file`.
+    /// `file` is the name in error messages.
     ///
     /// # Errors
     /// If the text is not TOML, if a key is unknown, missing or of the wrong type, or if a value is invalid.
@@ -184,7 +178,7 @@ impl SceneFile {
     }
 
     fn check(&self) -> Result<(), (String, String)> {
-        // Tables and plans print the name, and file names contain it.
+        // Tables and file names contain the name.
         let is_word = !self.name.trim().is_empty() && !self.name.contains(char::is_control);
         demand(is_word, "name", "give a name on one line without control characters")?;
         let in_size = self.size.iter().all(|n| (1..=16384).contains(n));
@@ -262,14 +256,13 @@ mod tests {
 
     const DOCUMENT: &str = include_str!("SCENE.md");
 
-    /// The keys in the first column of the table under a heading of SCENE.md.
     fn documented(heading: &str) -> Vec<&'static str> {
         let (_, part) = DOCUMENT.split_once(&format!("\n## {heading}\n")).unwrap_or_else(|| panic!("no {heading}"));
         let part = part.split("\n## ").next().unwrap_or(part);
         part.lines().filter_map(|line| line.strip_prefix("| `")?.split_once('`').map(|(key, _)| key)).collect()
     }
 
-    /// The keys that the parser accepts in a table, taken from its error for an unknown key.
+    /// The keys that the parser accepts, taken from the error for an unknown key.
     fn known(table: &str) -> Vec<String> {
         let error = SceneFile::parse(&format!("{table}nobodys_key = 1\n"), "x").unwrap_err().to_string();
         let (_, list) = error.split_once("expected ").unwrap_or_else(|| panic!("{error}"));

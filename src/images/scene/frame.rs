@@ -1,4 +1,4 @@
-//! Makes a scene around a bare mesh.
+//! Makes a scene around a mesh, with a camera and a light.
 
 use std::sync::Arc;
 
@@ -13,15 +13,13 @@ const VERTICAL_FOV: f32 = 40.0;
 /// The field of view of a camera inside the mesh, in degrees.
 const INSIDE_FOV: f32 = 75.0;
 
-/// The direction from the mesh to the camera: to the right and a little up.
 const TOWARDS_CAMERA: DVec3 = DVec3::new(0.5, 0.35, 1.0);
 
 /// The largest fraction of the image's width or height that the box of the mesh fills.
 const FILLED: f64 = 0.95;
 
 impl Scene {
-    /// A scene called `name` around `model`. Its up direction is y, its camera sees the whole box of the mesh, and it
-    /// has one light. A model without materials is grey.
+    /// Makes a scene around `model`, with one light. The camera sees the whole box of the mesh, and y is up.
     ///
     /// The shadow terminator fix is off, because it depends on the unit of length.
     ///
@@ -64,8 +62,8 @@ impl Scene {
         })
     }
 
-    /// The same scene with its camera in the middle of the scene's box. The camera looks along the longer horizontal
-    /// axis of the box. In a [framed](Scene::framed) scene, the light moves into the box as well.
+    /// Moves the camera to the middle of the scene's box. The camera looks along the longer horizontal axis of the box.
+    /// The light of a [framed](Scene::framed) scene moves into the box.
     ///
     /// # Errors
     /// If the mesh is empty or has no extent along this axis, or if `f32` cannot represent the camera.
@@ -86,8 +84,6 @@ impl Scene {
     }
 }
 
-/// A camera that sees all eight corners of `bounds`, and a light to the right of the camera and above it; `None` if
-/// `f32` cannot represent them.
 fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
     let centre = (min + max) / 2.0;
@@ -99,7 +95,7 @@ fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let fits = |corner: DVec3| corner.dot(right).abs().max(corner.dot(up).abs()) / reach + corner.dot(towards);
     let sign = |i: u32| if i == 0 { -0.5 } else { 0.5 };
     let corners = (0..8).map(|i| (max - min) * DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4)));
-    // If the box is a single point, use a distance in proportion to its coordinates.
+    // For a single point, use a distance in proportion to the coordinates.
     let distance = corners.map(fits).fold(f64::from(f32::MIN_POSITIVE), f64::max);
     let distance = if max == min { centre.abs().max_element().max(1.0) } else { distance };
 

@@ -1,4 +1,4 @@
-//! The hash that identifies a scene: times, counts and pictures are comparable only if the hashes are equal.
+//! The hash of a scene. Results are comparable only between scenes with equal hashes.
 
 use std::io::{BufWriter, Write};
 
@@ -8,11 +8,9 @@ use sha2::{Digest, Sha256};
 use super::{Offset, Scene};
 
 impl Scene {
-    /// SHA-256, in hexadecimal, of everything that rays, hits or pictures depend on: vertices, triangles, corner
-    /// normals, materials, lights, camera, background, recursion limit, shadow terminator fix, ray offset, image size.
-    /// The hash ignores names, notes, warnings, the list of stand-ins and `is_framed`.
+    /// SHA-256, in hexadecimal, of everything that rays, hits or pictures depend on.
     pub fn hash(&self) -> String {
-        // These patterns name every field of the scene. The compiler does not check this: add new fields by hand.
+        // Add every new field of `Scene` to these patterns. The compiler does not require this.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
         let Self { recursion_limit, shadow_terminator_fix, offset, size, .. } = self;
         let Self { name: _, is_framed: _, stand_ins: _, notes: _, warnings: _, .. } = self;
@@ -39,7 +37,7 @@ impl Scene {
         hash.vectors(&[camera.eye(), camera.target(), camera.up(), *background]);
         hash.floats(&[camera.vertical_fov()]);
         hash.words([*recursion_limit, u32::from(*shadow_terminator_fix), size[0], size[1]]);
-        // Recorded hashes depend on these codes: never change a code, and never reuse one for another offset.
+        // Recorded hashes depend on these codes. Never change or reuse a code.
         let (code, length) = match *offset {
             Offset::Direction(distance) => (3, distance),
             Offset::ErrorBounded => (5, 0.0),
@@ -50,7 +48,6 @@ impl Scene {
     }
 }
 
-/// SHA-256 behind a buffer. Without the buffer, the calls for single words would take longer than the hashing.
 struct Hash(BufWriter<Sha256>);
 
 const SUMMED: &str = "a sum takes all bytes";
@@ -80,7 +77,6 @@ impl Hash {
     }
 }
 
-/// The hexadecimal digits of `bytes`, two per byte.
 pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -2,11 +2,11 @@
 
 use glam::Vec3;
 
-/// A Phong-style material with the parameters that the source report's scenes need. Colours are linear RGB.
+/// A Phong material. Colours are linear RGB.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     pub name: String,
-    /// `Ka`: the product of `Ka` and `Kd` is the colour without any light.
+    /// `Ka`. The colour without any light is the product of `Ka` and `Kd`.
     pub ambient: Vec3,
     /// `Kd`: Lambert reflection.
     pub diffuse: Vec3,
@@ -14,12 +14,12 @@ pub struct Material {
     pub specular: Vec3,
     /// `Ns`: exponent of the highlight.
     pub shininess: f32,
-    /// `r`: weight of the mirror ray, 0 to 1. With 0, no mirror ray is traced.
+    /// `r`: weight of the mirror ray, 0 to 1.
     pub mirror: f32,
 }
 
 impl Material {
-    /// A light grey material called `name`, for meshes without materials.
+    /// A light grey material.
     pub fn named(name: impl Into<String>) -> Self {
         Self {
             name: name.into(),

@@ -11,12 +11,11 @@ use super::Material;
 pub struct Model {
     pub positions: Vec<Vec3>,
     pub triangles: Vec<[u32; 3]>,
-    /// Corner normals, of any length; empty if the model is flat-shaded.
+    /// Corner normals of any length. Empty if the model is flat-shaded.
     pub normals: Vec<Vec3>,
-    /// Three normal indices per triangle, or empty if there are no normals. In a partly smooth model, a triangle
-    /// without normals has [`Model::FLAT`] three times.
+    /// Three normal indices per triangle, or empty if there are no normals. A flat triangle has [`Model::FLAT`] three
+    /// times.
     pub normal_indices: Vec<[u32; 3]>,
-    /// The model's materials; a scene may replace them by name.
     pub materials: Vec<Material>,
     /// One index into `materials` per triangle, or empty if all triangles have the first material.
     pub material_of: Vec<u32>,
@@ -25,15 +24,13 @@ pub struct Model {
 }
 
 impl Model {
-    /// The normal index of a triangle without normals.
     pub const FLAT: u32 = u32::MAX;
 
-    /// The vertex indices of a triangle in a scene. A mirroring placement reverses their order to keep the front side.
+    /// A mirroring placement reverses the order of the vertices to keep the front side.
     pub fn placed([a, b, c]: [u32; 3], is_mirrored: bool) -> [u32; 3] {
         if is_mirrored { [a, c, b] } else { [a, b, c] }
     }
 
-    /// Allocates memory for more elements, with normals and a material for each triangle.
     pub(super) fn try_reserve(
         &mut self,
         vertices: usize,
@@ -47,7 +44,7 @@ impl Model {
         self.material_of.try_reserve_exact(triangles)
     }
 
-    /// Makes triangles flat if one of their normals has no direction, because shading normalizes normals. Adds a note.
+    /// Shading normalizes normals, so a normal without direction is invalid.
     pub(super) fn flatten_invalid_normals(&mut self) {
         let Self { normals, normal_indices, notes, .. } = self;
         let is_valid = |&n: &u32| {

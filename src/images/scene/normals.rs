@@ -12,14 +12,12 @@ pub struct CornerNormals {
 }
 
 impl CornerNormals {
-    /// The indices of a triangle without corner normals.
     pub const FLAT: [u32; 3] = [Model::FLAT; 3];
 
-    /// Takes normals, and three indices into `normals` per triangle. A triangle with a normal of length zero becomes a
-    /// flat triangle.
+    /// `indices` has three indices into `normals` per triangle. A triangle with a normal of length zero becomes flat.
     ///
     /// # Panics
-    /// If an index of a triangle other than [`CornerNormals::FLAT`] is out of range.
+    /// If an index is out of range, except in [`CornerNormals::FLAT`].
     pub fn new(normals: Vec<Vec3>, mut indices: Vec<[u32; 3]>) -> Self {
         for corners in indices.iter_mut().filter(|c| **c != Self::FLAT) {
             if corners.iter().any(|&i| normals[i as usize] == Vec3::ZERO) {
@@ -29,14 +27,12 @@ impl CornerNormals {
         Self { normals, indices }
     }
 
-    /// The three normals of triangle `index`; `None` if it is flat.
     #[inline]
     pub fn corners(&self, index: u32) -> Option<[Vec3; 3]> {
         let corners = self.indices[index as usize];
         (corners != Self::FLAT).then(|| corners.map(|i| self.normals[i as usize]))
     }
 
-    /// The normals, and three indices into the normals per triangle.
     pub fn parts(&self) -> (&[Vec3], &[[u32; 3]]) {
         (&self.normals, &self.indices)
     }

@@ -4,22 +4,20 @@ use earcut::Earcut;
 use glam::{DVec3, Vec3};
 use robust::{Coord, orient2d};
 
-/// Ear clipping takes time quadratic in the corners of a polygon that crosses itself. All concave polygons of more than
-/// [`SMALL`] corners in a file may have so many pairs of corners; further ones become fans.
+/// Ear clipping takes quadratic time if a polygon crosses itself. The limit applies to the sum of corner pairs over all
+/// concave polygons of a file.
 const MOST_PAIRS: usize = 1 << 27;
 const SMALL: usize = 64;
 
-/// A polygon is reported as bent if a corner is farther than this from its plane, relative to its extent.
+/// Largest distance between a corner and the plane of a flat polygon, relative to the polygon's extent.
 const BENT: f64 = 0.01;
 
 type Point = [f64; 2];
 
-/// Splits polygons of n corners into n - 2 triangles, and counts polygons that are not simple and flat.
+/// Splits polygons into triangles, and counts polygons that are not simple and flat.
 ///
-/// A convex polygon becomes the fan around its first corner, a concave quad is split along the diagonal inside it, and
-/// other polygons by ear clipping, which gives fewer triangles if corners repeat or lie on a line. This is decided in a
-/// projection along the axis of the largest component of the normal, seen counterclockwise. If a polygon crosses
-/// itself, the areas of its triangles do not add up to its own.
+/// Convex polygons become fans. Concave polygons of more than four corners are split by ear clipping. If a polygon
+/// crosses itself, the areas of the triangles do not add up to the polygon's area.
 ///
 /// # References
 /// G. H. Meisters, "Polygons have ears", 1975. J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast
@@ -27,7 +25,6 @@ type Point = [f64; 2];
 #[derive(Default)]
 pub(super) struct Splitter {
     earcut: Earcut<f64>,
-    /// Three corners each.
     triangles: Vec<usize>,
     crossing: usize,
     bent: usize,
@@ -36,7 +33,7 @@ pub(super) struct Splitter {
 }
 
 impl Splitter {
-    /// The triangles of a polygon, as indices of its corners; none for fewer than three corners.
+    /// Returns triangles as indices into `corners`.
     pub fn split(&mut self, corners: &[Vec3]) -> &[[usize; 3]] {
         if corners.len() < 4 || !self.split_other(corners) {
             self.triangles.clear();
@@ -45,7 +42,6 @@ impl Splitter {
         self.triangles.as_chunks().0
     }
 
-    /// The numbers of polygons so far that have no correct triangulation or were not examined.
     pub fn defects(&self) -> [(usize, &'static str); 3] {
         let large = "not convex and too large to search for crossing edges: split into fans, which may overlap";
         [
@@ -55,13 +51,13 @@ impl Splitter {
         ]
     }
 
-    /// Whether `triangles` hold a better triangulation than a fan.
+    /// Returns false if the polygon must become a fan.
     fn split_other(&mut self, corners: &[Vec3]) -> bool {
         let normal = newell(corners);
         let Some(axis) =
             (0..3).filter(|&i| normal[i] != 0.0).max_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()))
         else {
-            // No area: all corners lie on a line, or loops cancel each other.
+            // A polygon without area is a line, or the areas of its loops cancel.
             self.crossing += usize::from((0..3).any(|axis| !is_line(&project(corners, axis, false))));
             return false;
         };
@@ -94,14 +90,13 @@ fn newell(corners: &[Vec3]) -> DVec3 {
     (2..corners.len()).map(|i| from_first(i - 1).cross(from_first(i))).sum()
 }
 
-/// The polygon projected along an axis, or against it.
 fn project(corners: &[Vec3], axis: usize, against: bool) -> Vec<Point> {
     let (right, up) = ((axis + 1) % 3, (axis + 2) % 3);
     let (right, up) = if against { (up, right) } else { (right, up) };
     corners.iter().map(|p| [p[right].into(), p[up].into()]).collect()
 }
 
-/// Twice the area of a triangle, with the exact sign: positive if it is counterclockwise.
+/// Twice the area of a triangle, positive if the triangle is counterclockwise. The sign is exact.
 fn area(corners: [Point; 3]) -> f64 {
     let [a, b, c] = corners.map(|[x, y]| Coord { x, y });
     orient2d(a, b, c)
@@ -112,7 +107,7 @@ fn is_line(points: &[Point]) -> bool {
     points.iter().all(|&p| area([points[0], other, p]) == 0.0)
 }
 
-/// Whether the corners of a counterclockwise polygon all turn left or not at all, once around in total.
+/// A counterclockwise polygon is convex if no corner turns right and all corners turn 360 degrees in total.
 fn is_convex(points: &[Point]) -> bool {
     let n = points.len();
     let upward = |a: Point, b: Point| b[1] > a[1] || b[1] == a[1] && b[0] > a[0];
@@ -129,7 +124,7 @@ fn is_convex(points: &[Point]) -> bool {
     turns_upward == 1
 }
 
-/// Splits a counterclockwise quad that is not convex. Returns whether one of its diagonals lies inside.
+/// The quad must be counterclockwise and not convex. Returns whether a diagonal lies inside the quad.
 fn split_quad(points: [Point; 4], triangles: &mut Vec<usize>) -> bool {
     let around = |i: usize| [(i + 3) % 4, i, (i + 1) % 4];
     let turns = [0, 1, 2, 3].map(|i| area(around(i).map(|corner| points[corner])));
@@ -140,12 +135,11 @@ fn split_quad(points: [Point; 4], triangles: &mut Vec<usize>) -> bool {
     true
 }
 
-/// Whether the areas of the triangles add up to the area of the counterclockwise polygon.
 fn is_covered(points: &[Point], triangles: &[[usize; 3]]) -> bool {
     let fan = (2..points.len()).map(|i| area([points[0], points[i - 1], points[i]]));
     let (own, sizes) = fan.fold((0.0, 0.0), |(own, sizes), area| (own + area, sizes + area.abs()));
     let covered: f64 = triangles.iter().map(|triangle| area(triangle.map(|i| points[i])).abs()).sum();
-    // The difference that the rounding of both sums may make.
+    // The right side bounds the rounding errors of the two sums.
     (covered - own).abs() <= 2.0 * f64::EPSILON * points.len() as f64 * sizes
 }
 
@@ -163,10 +157,8 @@ mod tests {
         points.iter().map(|&[x, y]| Vec3::new(x, y, 0.0)).collect()
     }
 
-    /// A quad with one concave corner.
     const ARROW: [[f32; 2]; 4] = [[0.0, 0.0], [2.0, -1.0], [0.5, 0.0], [2.0, 1.0]];
 
-    /// The polygon with these corners in polar coordinates.
     fn polar(corners: impl Iterator<Item = (f32, f32)>) -> Vec<Vec3> {
         polygon(&corners.map(|(angle, r)| [r * angle.cos(), r * angle.sin()]).collect::<Vec<_>>())
     }
@@ -175,13 +167,11 @@ mod tests {
         splitter.defects().into_iter().filter(|(count, _)| *count > 0).map(|(_, defect)| defect).collect()
     }
 
-    /// Exact except for the last bits of the result.
     fn area(corners: [Vec3; 3]) -> f64 {
         let [a, b, c] = corners.map(Vec3::as_dvec3);
         (b - a).cross(c - a).z / 2.0
     }
 
-    /// The polygon's triangles all face its side, and their areas are its own: nothing is covered twice or left out.
     fn assert_covered(corners: &[Vec3]) {
         let mut splitter = Splitter::default();
         let triangles = splitter.split(corners).to_vec();
@@ -199,7 +189,6 @@ mod tests {
         let comb = polygon(&[&comb[..], &[[19.0, 0.0], [0.0, 0.0]]].concat());
         let arm = |r: f32| (0..30).map(move |i| (i as f32 * 0.5, r + i as f32 * 0.2));
         let spiral = polar(arm(1.0).chain(arm(1.5).rev()));
-        // A square with a hole that a double edge connects to the outline.
         let outline = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]];
         let hole = polygon(&[outline, [[1.0, 1.0], [1.0, 3.0], [3.0, 3.0], [3.0, 1.0], [1.0, 1.0]]].concat());
         let twice = polygon(&[[0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.5], [0.0, 2.0]]);
@@ -234,7 +223,7 @@ mod tests {
             assert_eq!(Splitter::default().split(&arrow), expected);
             arrow.rotate_left(1);
         }
-        // Two corners of a bent quad that coincide in the projection are both kept.
+        // Two corners of this bent quad coincide in the projection.
         let bent = [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::new(1.0, 1.0, 0.1)];
         assert_eq!(Splitter::default().split(&bent), [[3, 0, 1], [1, 2, 3]]);
     }
@@ -250,7 +239,6 @@ mod tests {
         assert_eq!(splitter.split(&straight), [[0, 1, 2], [0, 2, 3]]);
         assert_eq!(splitter.split(&octagon[..3]), [[0, 1, 2]]);
         assert!(splitter.split(&octagon[..2]).is_empty());
-        // A bent quad whose projection is convex is a fan, without a note.
         let bent = [Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y];
         assert_eq!(splitter.split(&bent), [[0, 1, 2], [0, 2, 3]]);
         assert!(defects(&splitter).is_empty());
@@ -270,7 +258,6 @@ mod tests {
         let mut arrow = polygon(&ARROW);
         arrow[2].z = 0.5;
         assert!(noted(&arrow).contains("neither convex nor flat"));
-        // The limit holds for the sum over all polygons, and one may exceed it alone; small polygons add nothing.
         let saw = |teeth: usize| {
             let middle = [teeth as f32 / 2.0, -9.0];
             polygon(&(0..teeth).map(|i| [i as f32, (i % 2) as f32]).chain([middle]).collect::<Vec<_>>())
@@ -285,7 +272,7 @@ mod tests {
 
     #[test]
     fn exact_signs_decide_where_rounding_fails() {
-        // The last corner lies an ulp beside the line through its neighbours: inside the polygon, and then outside.
+        // The last corner lies one ulp beside the line through its neighbours.
         let [a, b, c] = [[0.1, 0.1], [0.7, -1.0], [0.7, 0.7]];
         for (d, is_fan) in [([0.3, 0.3_f32.next_down()], false), ([0.3, 0.3_f32.next_up()], true)] {
             let corners = polygon(&[a, b, c, d]);

@@ -8,30 +8,23 @@ use super::offset::{Offset, SurfacePoint, barycentrics};
 use super::{Camera, CornerNormals, Light, Material};
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
 
-/// A mesh in world space with normals, materials, lights and a camera.
-///
-/// The mesh contains the vertices and triangles of the objects in the order of the scene file.
+/// The mesh contains the triangles of the objects in the order of the scene file.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub name: String,
     pub mesh: Arc<Mesh>,
-    /// `None` if no triangle has corner normals.
     pub normals: Option<CornerNormals>,
     pub materials: Vec<Material>,
-    /// One index into `materials` per triangle.
     pub material_of: Vec<u32>,
     pub lights: Vec<Light>,
     pub camera: Camera,
-    /// Colour of a ray that hits nothing.
     pub background: Vec3,
-    /// Mirror rays are traced up to this level; primary rays have level 0. Default 8.
+    /// The highest level of mirror rays. Primary rays have level 0.
     pub recursion_limit: u32,
-    /// Whether shadow rays of smooth triangles start off the surface, at `point + normal * area^0.05`. The course of
-    /// the source report avoids dark facets near the shadow boundary in this way. Default of scene files: true.
+    /// Whether shadow rays of smooth triangles start at `point + normal * area^0.05`. The source report's course avoids
+    /// dark facets near the shadow boundary in this way.
     pub shadow_terminator_fix: bool,
-    /// The offset of ray origins: error-bounded unless the scene file sets `ray_offset`.
     pub offset: Offset,
-    /// Width and height of the image.
     pub size: [u32; 2],
     /// Whether [`Scene::framed`] made the scene.
     pub is_framed: bool,
@@ -43,40 +36,36 @@ pub struct Scene {
     pub warnings: Vec<String>,
 }
 
-/// The surface at a hit, for shading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// The point from which rays leave, see [`SurfacePoint::on_triangle`]. With [`Offset::Direction`], its position is
-    /// `origin + t * direction`, as in the course.
+    /// The start of secondary rays. With [`Offset::Direction`], its position is `origin + t * direction`, as in the
+    /// source report's course.
     pub point: SurfacePoint,
-    /// Unit normal, interpolated from the corner normals; the geometric normal if the triangle has none.
+    /// Interpolated unit normal. A flat triangle has its geometric normal.
     pub shading_normal: Vec3,
     /// Whether the corner normals differ.
     pub smooth: bool,
 }
 
 impl Scene {
-    /// The camera rays of the pixels in `range` of an image of `size`. Pixels are numbered row by row from the top
-    /// left. Each ray passes through the point `offset` of its pixel, see [`View::ray`](super::View::ray).
+    /// Pixels are numbered row by row from the top left. `offset` is a position in the pixel, see
+    /// [`View::ray`](super::View::ray).
     pub fn primary_rays(&self, size: [u32; 2], offset: Vec2, range: std::ops::Range<u32>) -> Vec<Ray> {
         let view = self.camera.view(size);
         let ray = |pixel| view.ray(pixel % size[0], pixel / size[0], offset);
         range.map(ray).map(|ray| self.offset.leave_free(ray.origin, ray.direction)).collect()
     }
 
-    /// The material of a primitive.
     #[inline]
     pub fn material(&self, prim: PrimId) -> &Material {
         &self.materials[self.material_of[prim.index() as usize] as usize]
     }
 
-    /// Area of a primitive.
     pub fn area(&self, prim: PrimId) -> f32 {
         let [a, b, c] = self.mesh.corners(prim.index()).map(Vec3::as_dvec3);
         ((b - a).cross(c - a).length() * 0.5) as f32
     }
 
-    /// The surface at the hit of `ray`, computed in `f64` from the ray and the corners of the triangle.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         let corners = self.mesh.corners(hit.prim.index());
         let weights = barycentrics(ray, corners);
@@ -94,11 +83,8 @@ impl Scene {
         Surface { point, shading_normal, smooth }
     }
 
-    /// The any-hit ray that tests whether `light` is hidden from `surface`, a point on `prim`.
-    ///
-    /// Its origin is the surface point, moved by [`Scene::shadow_terminator_fix`] and [`Scene::offset`]. Its `t_max` is
-    /// the distance from the unmoved surface point to the light. The ray may therefore hit an occluder slightly beyond
-    /// the light, as in the course. Lights behind the surface get shadow rays as well.
+    /// `t_max` is the distance from the unmoved point to the light. The ray may therefore hit an occluder slightly
+    /// beyond the light, as in the source report's course.
     pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
         let mut start = surface.point;
         if surface.smooth && self.shadow_terminator_fix {
@@ -108,13 +94,11 @@ impl Scene {
         self.offset.leave(&start, light.position - start.position).until(distance)
     }
 
-    /// `ray` reflected about the shading normal of `surface`. Its origin is the surface point, moved by `offset`.
     pub fn mirror_ray(&self, ray: &Ray, surface: &Surface) -> Ray {
         let (direction, normal) = (ray.direction, surface.shading_normal);
         self.offset.leave(&surface.point, direction - normal * (2.0 * direction.dot(normal)))
     }
 
-    /// Whether any triangle reflects mirror rays.
     pub fn has_mirrors(&self) -> bool {
         let mirrors: Vec<bool> = self.materials.iter().map(|m| m.mirror > 0.0).collect();
         self.recursion_limit > 0 && self.material_of.iter().any(|&m| mirrors[m as usize])

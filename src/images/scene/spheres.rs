@@ -4,20 +4,17 @@ use glam::Vec3;
 
 use super::{Camera, Light, Scene, meshes};
 
-/// Segments per edge of the icosahedron, by level. Level 0 has 20 triangles; each further level has four times as many.
-/// The last has 16 million instead of 21 million: the structures of 21 million exceed the memory of many machines.
+/// Segments per edge of the icosahedron, by level. A sphere with 1024 segments would exceed the memory of many
+/// machines.
 const STEPS: [u32; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 895];
 
-/// The finest level.
 pub const FINEST: u32 = STEPS.len() as u32 - 1;
 
-/// The number of triangles of the icosphere of this level.
 pub fn triangles(level: u32) -> usize {
     20 * (STEPS[level as usize] as usize).pow(2)
 }
 
-/// The icosphere whose level is the number in `parameters`. All levels have the camera and the light of the source
-/// report's sphere.
+/// All levels have the camera and the light of the source report's sphere.
 ///
 /// # Errors
 /// If `parameters` is not a level.

@@ -15,7 +15,6 @@ camera = { eye = [0.0, 0.0, 5.0], target = [0, 0, 0], vertical_fov = 60 }
 objects = [{ mesh = "cube" }]
 "#;
 
-/// A scene of the source report, with generated meshes.
 pub(crate) fn of_the_report(folder: &str) -> Scene {
     let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     Scene::read(&scenes.join(folder).join("scene.toml"), None).unwrap()
@@ -213,7 +212,6 @@ fn a_surface_has_the_point_and_both_normals() {
     assert_eq!((surface.point.normal, surface.shading_normal, surface.smooth), (Vec3::Z, Vec3::Z, false));
     assert_eq!(flat.area(Hit::new(4.0, front).prim), 2.0);
 
-    // At a vertex, the shading normal is the vertex normal. At an edge midpoint, it is the mean of two vertex normals.
     let round = scene(&PLAIN.replace("cube", "icosphere")).unwrap();
     let [a, b, c] = round.mesh.corners(7);
     let [at_a, at_b, at_c] = round.normals.as_ref().unwrap().corners(7).unwrap();
@@ -277,7 +275,6 @@ fn a_framed_mesh_is_whole_in_view_at_any_size_and_place() {
         let scene = Scene::framed("teapot", model).unwrap();
         assert_eq!(scene.offset, Offset::ErrorBounded);
 
-        // All corners of the box are in view. The outermost is at 94 to 96 % of the way from the centre to the border.
         let camera = &scene.camera;
         let forward = (camera.target() - camera.eye()).normalize();
         let right = forward.cross(camera.up()).normalize();

@@ -5,15 +5,13 @@ use crate::measure::{AaNoise, RandomOrder};
 
 const EPOCHS: usize = 5;
 
-/// A machine with all effects that make times hard to compare. `placement` and `run` are standard deviations of ln
-/// time.
+/// `placement` and `run` are standard deviations of ln time.
 #[derive(Clone, Copy, Debug)]
 struct Machine {
-    /// The effect of an epoch's memory layout on a structure.
     placement: f64,
     /// The effect of a run on a structure in one cell, the same in all epochs.
     run: f64,
-    /// Maximum that an interruption adds to ln time; by default five standard deviations of uninterrupted samples.
+    /// The maximum that an interruption adds to ln time.
     tail: f64,
     epochs: usize,
     rounds: usize,
@@ -25,14 +23,13 @@ impl Default for Machine {
     }
 }
 
-/// Noise of one sample. One sample in eight is interrupted and takes longer by up to `tail`.
 fn noise(random: &mut RandomOrder, tail: f64) -> f64 {
     let interrupted = random.uniform() < 0.125;
     0.01 * random.normal() + if interrupted { tail * random.uniform() } else { 0.0 }
 }
 
 impl Machine {
-    /// ln times by structure, epoch and round; the machine becomes slower by a fifth during the run.
+    /// ln times by structure, epoch and round.
     fn cell(&self, times: &[f64], random: &mut RandomOrder) -> Vec<Vec<Vec<f64>>> {
         let mut samples = vec![vec![]; times.len()];
         let run: Vec<f64> = times.iter().map(|_| self.run * random.normal()).collect();
@@ -56,19 +53,16 @@ impl Machine {
         log_differences(&logs[0], &logs[1])
     }
 
-    /// The epoch values of `runs` runs, in one list.
     fn values(&self, runs: usize, times: [f64; 2], random: &mut RandomOrder) -> Vec<f64> {
         (0..runs).flat_map(|_| epoch_values(&[self.ratio(times, random)]).unwrap()).collect()
     }
 }
 
-/// The differences of the ln times of two structures, by epoch and round.
 fn log_differences(one: &[Vec<f64>], other: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let of_epoch = |(one, other): (&Vec<f64>, &Vec<f64>)| one.iter().zip(other).map(|(a, b)| a - b).collect();
     one.iter().zip(other).map(of_epoch).collect()
 }
 
-/// Machines with and without placement effects, with one round or three rounds per epoch.
 fn machines() -> impl Iterator<Item = Machine> {
     let of = |rounds: usize| [0.0, 0.01, 0.04].map(|placement| Machine { placement, rounds, ..Machine::default() });
     [1, 3].into_iter().flat_map(of)
@@ -76,7 +70,6 @@ fn machines() -> impl Iterator<Item = Machine> {
 
 const PAIRS: u64 = 2500;
 
-/// The percentage of pairs in which the interval contains the number; `pair` makes an interval and a number.
 fn coverage_of(pairs: u64, pair: impl Fn(&mut RandomOrder) -> (Estimate, f64)) -> f64 {
     let holds = |seed: &u64| {
         let (first, second) = pair(&mut RandomOrder::new(*seed));
@@ -101,7 +94,6 @@ fn mean_of(cells: &[Vec<Vec<f64>>], noise: Variance) -> Rerun {
 
 #[test]
 fn the_estimate_of_a_second_run_lies_within_the_interval_of_the_first() {
-    // By default `compare` measures 4 epochs. Test 3 and 5 epochs as well.
     for machine in [3, 4, EPOCHS].into_iter().flat_map(|epochs| machines().map(move |m| Machine { epochs, ..m })) {
         let run = |random: &mut RandomOrder| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE);
         as_promised(held(PAIRS, run), &format!("{machine:?}"));
@@ -115,7 +107,7 @@ fn several_rounds_filter_interruptions_and_one_does_not() {
         held(PAIRS, |random| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE))
     };
     as_promised(of(3, 0.1), "three rounds, interruptions of ten standard deviations");
-    // One sample in eight takes up to a third longer: the median of five samples ignores most interruptions.
+    // One sample in eight takes up to a third longer.
     let (one, five) = (of(1, 0.3), of(5, 0.3));
     assert!(one < 90.0 && five > one + 4.0, "{one:.1} % of one round, {five:.1} % of five");
 }
@@ -136,7 +128,7 @@ fn changes_lie_within_their_intervals() {
     assert!(confidence < 90.0, "{confidence:.1} %");
 }
 
-/// One run of two structures and a second build of the first, in `cells` cells: the ratios and the A/A noise.
+/// The A/A noise comes from a second build of the first structure.
 fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<Vec<Vec<f64>>>, AaNoise) {
     let [mut ratios, mut twins] = [vec![], vec![]];
     for _ in 0..cells {
@@ -150,7 +142,7 @@ fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<
 #[test]
 fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
     // The standard error of a log ratio is about 0.01 here. The run effects 0.007 and 0.02 add standard deviations of
-    // about 0.01 and 0.03 to it.
+    // about 0.01 and 0.03.
     for (run, cells) in [(0.0, 1), (0.007, 1), (0.0, 4), (0.0, 8), (0.007, 8), (0.02, 12)] {
         let machine = Machine { run, ..Machine::default() };
         let share = |noise: &dyn Fn(&AaNoise) -> Variance, all: bool| {
@@ -161,7 +153,7 @@ fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
         };
         let of_one = share(&AaNoise::of_ratio, false);
         if (run, cells) == (0.007, 1) {
-            // A single A/A ratio is not enough to estimate the effects of runs: coverage is a little too low.
+            // A single A/A ratio is not enough to estimate the effects of runs.
             assert!((91.0..=97.0).contains(&of_one), "{of_one:.1} %");
             continue;
         }
@@ -179,7 +171,6 @@ fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
 
 #[test]
 fn half_widths_are_those_of_students_t() {
-    // Five values with the standard deviation 0.01 sqrt(2.5), and five equal values.
     let (spread, none) = ([-0.02, -0.01, 0.0, 0.01, 0.02], [0.0; 5]);
     let deviation = 0.01 * libm::sqrt(2.5);
     let half = |rerun: Option<Rerun>| {
@@ -188,8 +179,6 @@ fn half_widths_are_those_of_students_t() {
     };
     let expect = |half: f64, expected: f64| assert!((half - expected).abs() < 1e-4, "{half} {expected}");
     expect(half(Rerun::of(&spread, Variance::NONE)), 2.776 * deviation * libm::sqrt(2.0 / 5.0));
-    // The interval of a change includes the variation of both runs. It has eight degrees of freedom, or four if one run
-    // does not vary. It also includes the A/A noise of both runs.
     let change = |old: &[f64], new: &[f64], noise| Rerun::change(old, new, [noise; 2]);
     let noise = Variance { square: 1e-4, freedom: 1e9 };
     expect(half(change(&spread, &spread.map(|x| x + 0.1), Variance::NONE)), 2.306 * deviation * libm::sqrt(2.0 / 5.0));
@@ -201,7 +190,7 @@ fn half_widths_are_those_of_students_t() {
 
 #[test]
 fn cells_of_one_epoch_share_its_placement() {
-    // Both cells vary in the same way from epoch to epoch: their mean is as uncertain as each cell.
+    // Both cells vary in the same way from epoch to epoch, so their mean is as uncertain as each cell.
     let cell = |by: f64| -> Vec<Vec<f64>> { (0..EPOCHS).map(|e| vec![by + 0.01 * e as f64; 3]).collect() };
     let one = mean_of(&[cell(0.0)], Variance::NONE).ratio();
     let two = mean_of(&[cell(0.0), cell(1.0)], Variance::NONE).ratio();

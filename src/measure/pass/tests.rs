@@ -60,17 +60,16 @@ fn a_pass_without_results_changes_its_checksum() {
     }
 }
 
-/// A structure that advances a mock clock. The x coordinate of a ray's origin is its tracing time in nanoseconds.
+/// The x coordinate of a ray's origin is the tracing time in nanoseconds.
 struct Slow<'a>(&'a AtomicU64, Box<dyn DynAccel>);
 
-/// A batch of rays: the clock, the number of rays, and the nanoseconds that they take.
+/// The clock, the number of rays, and the tracing time in nanoseconds.
 struct Taken<'a>(&'a AtomicU64, usize, u64);
 
 struct Now<'a>(&'a AtomicU64);
 
 impl Clock for Now<'_> {
     fn now_ns(&self) -> u64 {
-        // Reading the clock takes time as well.
         self.0.fetch_add(7, Relaxed)
     }
 }
@@ -110,7 +109,6 @@ impl DynAccel for Slow<'_> {
 fn the_time_of_a_part_is_that_of_its_rays_and_lead_ins_are_not_timed() {
     let now = AtomicU64::new(0);
     let slow = Slow(&now, triangle());
-    // Ray number i takes i nanoseconds.
     let rays: Vec<Ray> = (0..9000).map(|i| Ray::new(Vec3::splat(i as f32), Vec3::X)).collect();
     let (threads, clock) = (Threads::unstarted(1), Now(&now));
     for (levels, epoch) in [(&[0][..], 0), (&[0, 1, 3], 1), (&[1, 2], 2), (&[4], 3)] {

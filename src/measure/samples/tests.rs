@@ -4,7 +4,6 @@ use super::*;
 use crate::measure::level_by_clock;
 use crate::measure::tiles::level_within;
 
-/// A mock clock, and the names of the cases in the order of their passes.
 #[derive(Default)]
 struct Bench {
     now: Cell<u64>,
@@ -17,7 +16,6 @@ impl Clock for Bench {
     }
 }
 
-/// A case that takes `ns` per ray on the mock clock.
 struct Mock<'a> {
     bench: &'a Bench,
     name: char,
@@ -48,7 +46,6 @@ impl Timed for Mock<'_> {
     }
 
     fn lead_in(&mut self) {
-        // The time of the lead-in must not be counted.
         self.bench.now.update(|ns| ns + 1_000_000);
     }
 
@@ -78,7 +75,6 @@ impl Bench {
         Box::new(self.mock(name, ns, all))
     }
 
-    /// Takes samples on as many rays as the plan allows.
     fn take<'a>(&'a self, cases: &mut [Box<dyn Timed + 'a>], plan: &SamplePlan) -> Vec<Samples> {
         let none = |rays: usize| Samples::none(rays, level_within(rays, plan.most_rays));
         let mut samples: Vec<Samples> = cases.iter().map(|case| none(case.rays())).collect();
@@ -111,8 +107,7 @@ fn only_the_pass_is_timed_in_rounds_of_changing_order() {
 
 #[test]
 fn a_case_with_changing_results_is_not_steady_and_other_cases_continue() {
-    // On all rays, the checksum changes in the second sample. On a subset, two checksum passes precede the samples: the
-    // checksum changes in the second sample (pass 4), or in the second checksum pass.
+    // On a subset, two checksum passes precede the samples. The second sample is then pass 4.
     for (runs, most_rays, fickle_at) in [(5, usize::MAX, 2), (5, 16, 4), (1, 16, 2)] {
         let bench = Bench::default();
         let fickle = Mock { fickle_at, ..bench.mock('a', 10, 64) };
@@ -138,12 +133,12 @@ fn parts_are_timed_along() {
 
 #[test]
 fn another_epoch_has_the_checksum_of_the_first_unless_its_results_differ() {
-    for (whole, rays, asked) in [(1000, 1000, None), (65_536, 16_384, Some(3))] {
+    for (whole, rays, checksum_level) in [(1000, 1000, None), (65_536, 16_384, Some(3))] {
         let bench = Bench::default();
         let checksum = |right: u64, epoch: usize| {
             let mut cases: [Box<dyn Timed + '_>; 1] = [Box::new(Mock { right, ..bench.mock('a', 10, whole) })];
             let samples = bench.take(&mut cases, &SamplePlan { most_rays: 16_384, epoch, ..PLAN });
-            assert_eq!((samples[0].rays, samples[0].checksum_level, samples[0].ns.len()), (rays, asked, 5));
+            assert_eq!((samples[0].rays, samples[0].checksum_level, samples[0].ns.len()), (rays, checksum_level, 5));
             samples[0].checksum
         };
         assert_eq!([(7, 0), (7, 1), (8, 2)].map(|(right, epoch)| checksum(right, epoch)), [7, 7, 8]);
@@ -153,7 +148,7 @@ fn another_epoch_has_the_checksum_of_the_first_unless_its_results_differ() {
 #[test]
 fn a_case_of_unknown_cost_takes_as_many_rays_as_its_clock_says_that_it_can() {
     let bench = Bench::default();
-    // 65,536 rays of 100 ns take 15.6 ms, with their lead-ins and warm-up.
+    // 65,536 rays of 100 ns take 15.6 ms, with lead-ins and warm-up.
     let cases = [
         (100, 0, 16_000_000, 65_536),
         (100, 0, 15_000_000, 16_384),

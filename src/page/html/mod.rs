@@ -10,10 +10,9 @@ use crate::report::plot::{Chart, WIDTH};
 use crate::report::words::ended;
 use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, Tone};
 
-/// The width of a chart on a narrow screen.
 const NARROW: f64 = 360.0;
 
-/// The page as HTML. All text is escaped, except charts, style sheet and scripts, which sahara makes itself.
+/// All text is escaped, except charts, style sheet and scripts, which sahara makes itself.
 pub fn page(document: &Document) -> String {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
@@ -34,12 +33,11 @@ pub fn page(document: &Document) -> String {
     page.expect("a test renders the template with all kinds of blocks")
 }
 
-/// JSON for a script element. `<` is escaped, so no text can end the element.
+/// `<` is escaped, so no text can end the script element.
 fn in_script(data: &impl Serialize) -> String {
     serde_json::to_string(data).expect("data have text keys").replace('<', "\\u003c")
 }
 
-/// The style sheet: the layout of the page, and the colours of drawings in light and dark mode.
 fn sheet() -> String {
     let light = properties(|role| hex(role.light));
     let dark = properties(|role| hex(role.dark));
@@ -49,7 +47,7 @@ fn sheet() -> String {
          :root[data-theme=\"dark\"] {{ color-scheme: dark; {dark} }}\n"
     );
     sheet += include_str!("page.css");
-    // Charts contain the light colours: replace them by the colours of the current mode.
+    // Charts contain the light colours, which these rules replace.
     for role in roles() {
         let (name, light) = (role.name, hex(role.light));
         sheet += &format!(".chart [fill=\"{light}\"] {{ fill: var(--{name}); }}\n");
@@ -107,7 +105,7 @@ fn table(table: &Table) -> Value {
 
 fn figure(figure: &Figure) -> Value {
     let chart = figure.chart();
-    // The labels of a scatter plot need its full width: on narrow screens it scrolls instead of shrinking.
+    // The labels of a scatter plot need the full width, so the plot scrolls on narrow screens.
     let shrinks = |chart: &&Chart| !matches!(chart, Chart::Scatter(_));
     context! {
         id => &figure.id,
@@ -121,7 +119,6 @@ fn figure(figure: &Figure) -> Value {
     }
 }
 
-/// Heading and inspector data, with either a colour scale or a key of colours.
 fn overlay(overlay: &Overlay) -> Value {
     let colours = match &overlay.colours {
         Colours::Ramp { title, colours, ticks } => {
@@ -143,7 +140,7 @@ fn picture(picture: &Picture) -> Value {
     }
 }
 
-/// A chart as inline SVG. It adapts to the available width, and screen readers skip it.
+/// The drawing adapts to the available width, and screen readers skip it.
 fn inline(svg: &str) -> String {
     let svg = svg.trim_start();
     let end = svg.find('>').map_or(0, |end| end + 1);

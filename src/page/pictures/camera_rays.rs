@@ -12,17 +12,15 @@ use crate::report::words::{each_once, scene_name};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
 use crate::study::measure::guarded;
 
-/// The camera rays of a scene, traced with exact arithmetic and with every structure that `compare` measured. Brute
-/// force is left out: its cost would darken the heat maps of all other structures.
+/// Brute force is left out, because its cost would darken the heat maps of all structures.
 pub struct CameraRays<'a> {
     pub loaded: &'a LoadedScene,
-    /// The name of the scene in figures.
     pub name: String,
     pub exact: ExactPicture,
     pub structures: Vec<StructureWork>,
 }
 
-/// The work of one structure on each pixel, row by row.
+/// The pixels are ordered row by row.
 pub struct StructureWork {
     pub label: String,
     pub observed: Observed,
@@ -30,7 +28,7 @@ pub struct StructureWork {
 }
 
 impl<'a> CameraRays<'a> {
-    /// Traces the rays. Structures that cannot be built, panic or decline one of the rays are left out.
+    /// Leaves out structures that cannot be built, panic or decline one of the rays.
     pub fn new(loaded: &'a LoadedScene, runs: &Runs, registry: &Registry) -> Self {
         let scene = &loaded.scene;
         let exact = ExactPicture::new(scene, coarse_size(scene));
@@ -58,7 +56,6 @@ impl<'a> CameraRays<'a> {
         ErrorMap::of(&self.exact, structure.work.iter().map(|work| work.hit))
     }
 
-    /// A picture of one structure's results on these rays.
     pub fn picture(&self, label: &str, alt: String, note: String, image: &RgbImage) -> Picture {
         Picture { name: label.into(), note, alt, png: png(image), size: self.exact.size }
     }

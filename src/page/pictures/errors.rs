@@ -8,7 +8,7 @@ use crate::report::number::{count, plural};
 use crate::report::words::listed;
 use crate::report::{Colours, Table};
 
-/// The maps of all structures with a wrong hit, or a sentence if all hits are correct. `None` without structures.
+/// Returns a sentence if all hits are correct, and `None` without structures.
 pub fn maps(camera: &CameraRays) -> Option<Result<Maps, String>> {
     let maps: Vec<(&StructureWork, ErrorMap)> = camera.structures.iter().map(|s| (s, camera.errors(s))).collect();
     let (wrong, right): (Vec<_>, Vec<_>) = maps.into_iter().partition(|(_, map)| map.errors().next().is_some());
@@ -47,7 +47,7 @@ pub fn maps(camera: &CameraRays) -> Option<Result<Maps, String>> {
     }))
 }
 
-/// At most `most` pixels, evenly selected from all pixels with a wrong hit, and a sentence on the selection.
+/// Returns the selected pixels and a sentence on the selection.
 fn pixels(wrong: &[(&StructureWork, ErrorMap)], most: usize) -> (Vec<usize>, String) {
     let mut pixels: Vec<usize> = wrong.iter().flat_map(|(_, map)| map.errors()).collect();
     pixels.sort_unstable();

@@ -9,13 +9,12 @@ use crate::report::number::{count, figures};
 use crate::report::plot::tick_text;
 use crate::report::{Colours, Table};
 
-/// The maps of all structures that count triangle tests and traversal steps; `None` if no structure does.
 pub fn maps(camera: &CameraRays) -> Option<Maps> {
     let counting = camera.structures.iter().filter(|own| own.observed == Observed::ALL);
     let costs = |own: &StructureWork| own.work.iter().map(Work::cost).collect();
     let costs: Vec<(&str, Vec<u64>)> = counting.map(|own| (own.label.as_str(), costs(own))).collect();
     let mean = |costs: &[u64]| costs.iter().sum::<u64>() as f64 / costs.len() as f64;
-    // All structures share one scale: equal cost has equal brightness.
+    // All structures share one scale, so equal cost has equal brightness.
     let scale = costs.iter().map(|(_, costs)| hottest(costs)).max()?;
     let (name, size) = (&camera.name, camera.exact.size);
     let picture = |(label, costs): &(&str, Vec<u64>)| {
@@ -45,7 +44,7 @@ pub fn maps(camera: &CameraRays) -> Option<Maps> {
     })
 }
 
-/// The pixels of a coarse grid, and a sentence on the selection.
+/// Returns the selected pixels and a sentence on the selection.
 fn grid(camera: &CameraRays) -> (Vec<usize>, String) {
     let [width, height] = camera.exact.size.map(|side| side as usize);
     let of = |stride: usize| {
@@ -74,7 +73,7 @@ fn ramp(scale: u64) -> Colours {
     }
 }
 
-/// A cost rounded to a step of the logarithmic scale. The rounding is invisible and shrinks the file to a third.
+/// The rounding to steps of the scale is invisible and makes the file smaller.
 fn stepped(cost: u64, scale: u64) -> u64 {
     const STEPS: f64 = 48.0;
     let unit = libm::log1p(scale as f64) / STEPS;

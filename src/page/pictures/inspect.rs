@@ -1,4 +1,4 @@
-//! The data of the pixel inspector: the rays of some pixels, and the work of every structure on them.
+//! The data of the pixel inspector, which shows the rays of some pixels.
 
 use serde_json::{Value, json};
 
@@ -8,19 +8,18 @@ use crate::render::{Work, error_name};
 use crate::report::words::each_once;
 use crate::scene::offset::barycentrics;
 
-/// The maximum number of values in the data of one figure; each takes about ten bytes on the page.
+/// Each value takes about ten bytes on the page.
 const NUMBERS: usize = 75_000;
 
 /// Values per ray that do not depend on a structure.
 const OF_RAY: usize = 8;
 
-/// The maximum number of rays in the data of a figure with this number of structures.
 pub fn most_rays(structures: usize) -> usize {
     NUMBERS / (structures + OF_RAY)
 }
 
-/// The inspector's data. `pixels` has ascending indices, counted row by row from the top left; the sentence `which`
-/// describes their selection. Each quantity is one array over all pixels, which keeps the data small.
+/// `pixels` has ascending indices, counted row by row from the top left. Each quantity is one array over all pixels to
+/// keep the data small.
 pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     let options: Vec<String> = camera.structures.iter().map(|s| format!("-s {}", s.label)).collect();
     let answer = |structure: &StructureWork, pixel: usize| {
@@ -34,7 +33,6 @@ pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
         self::answer(camera, pixel, truth, "")
     };
     let of_structure = |structure: &StructureWork| {
-        // The array of a quantity that the structure does not report is empty.
         let numbers = |known: bool, number: fn(&Work) -> u64| -> Vec<u64> {
             pixels.iter().filter(|_| known).map(|&pixel| number(&structure.work[pixel])).collect()
         };
@@ -63,8 +61,7 @@ pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     })
 }
 
-/// Whether the structure counts leaves. Some trees have no separate leaf nodes: they test triangles without entering a
-/// leaf.
+/// Some trees have no separate leaf nodes and test triangles without entering a leaf.
 fn sees_leaves(structure: &StructureWork) -> bool {
     let any = |number: fn(&Work) -> u64| structure.work.iter().any(|work| number(work) > 0);
     structure.observed.steps && (any(|work| work.counts.leaves) || !any(|work| work.counts.tests))
@@ -79,11 +76,11 @@ fn answer(camera: &CameraRays, pixel: usize, hit: Option<Hit>, wrong: &str) -> V
     answer_of(hit, wrong)
 }
 
-/// `[t, triangle, u, v]`, or `[]` for a miss, followed by `wrong` if it is not empty. `u` and `v` are the weights of
-/// the second and third corner at the point where the ray meets the plane of the triangle.
+/// `[t, triangle, u, v]`, or `[]` for a miss, followed by `wrong` if not empty. `u` and `v` are the barycentric
+/// coordinates of the second and third corner.
 fn answer_of(hit: Option<(f32, u32, [f64; 2])>, wrong: &str) -> Value {
     let mut fields = hit.map_or(vec![], |(t, triangle, weights)| {
-        // Keep only the shortest digits that parse to the same `t`.
+        // The shortest digits that parse to the same `t`.
         let t: f64 = t.to_string().parse().expect("a number");
         let [u, v] = weights.map(|weight| libm::round(weight * 1e9) / 1e9);
         vec![json!(t), json!(triangle), json!(u), json!(v)]

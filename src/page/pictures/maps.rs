@@ -1,13 +1,12 @@
-//! A figure with one picture per structure; readers can inspect pixels.
+//! A figure with one picture per structure and a pixel inspector.
 
 use super::camera_rays::CameraRays;
 use super::inspect::inspector;
 use crate::report::words::slug;
 use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
-/// Pictures of the camera rays of one scene, one per structure, in the same colours.
 pub struct Maps {
-    /// The value of `--view`, and further options, with which `sahara render` draws one of the pictures.
+    /// The value of `--view` in the printed `sahara render` command. Other options may follow the value.
     pub view: String,
     pub caption: String,
     pub pictures: Vec<Picture>,
@@ -20,7 +19,7 @@ pub struct Maps {
 }
 
 impl Maps {
-    /// The figure, and the command that draws one of its pictures. The id of the figure begins with `kind`.
+    /// Returns the figure and the command that draws one of its pictures.
     pub fn figure(self, kind: &str, camera: &CameraRays) -> (Block, String) {
         let Self { view, caption, pictures, colours, data, pixels, which } = self;
         let inspector = inspector(camera, &pixels, &which);
@@ -31,7 +30,6 @@ impl Maps {
     }
 }
 
-/// A colour in CSS notation.
 pub fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

@@ -1,4 +1,4 @@
-//! Pictures of the scenes, heat maps and error maps, which are rendered for each report.
+//! Renders the pictures of a report: scenes, heat maps and error maps.
 
 mod camera_rays;
 mod errors;
@@ -18,17 +18,15 @@ use crate::request::is_large;
 use camera_rays::CameraRays;
 use scenes::LoadedScene;
 
-/// The maximum number of scenes with heat maps and error maps. The maps rebuild all structures, so large scenes
-/// ([`is_large`]) have no maps. Of the other scenes, the largest have maps.
+/// The maximum number of scenes with heat maps and error maps. The maps of a scene rebuild all structures.
 const LARGEST: usize = 3;
 
-/// A section of pictures.
 struct Part {
     id: &'static str,
     title: &'static str,
-    /// The name of the pictures, for the note that they are missing.
+    /// The name of the pictures in a note that they are missing.
     pictures: &'static str,
-    /// The text before the pictures; unused in `SCENES`.
+    /// Text before the pictures; unused in `SCENES`.
     introduction: &'static str,
 }
 
@@ -51,7 +49,6 @@ impl Part {
         Section { id: self.id, title: self.title, blocks, ..Section::default() }
     }
 
-    /// The introduction and the blocks of `found`, with their commands; only a note if `found` is empty.
     fn introduced(&self, found: Vec<(Block, String)>) -> Section {
         let note = "Scenes of more than four million triangles are left out; `sahara render` draws them.";
         let first = match found.is_empty() {
@@ -65,7 +62,6 @@ impl Part {
     }
 }
 
-/// The sections of scenes, heat maps and errors. `progress` receives each step.
 pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) -> Vec<Section> {
     let (mut loaded, mut lost): (Vec<LoadedScene>, Vec<String>) = (vec![], vec![]);
     // Skip generated scenes: all scenes of a generator look the same.
@@ -104,7 +100,6 @@ pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) 
     vec![Section { command, ..SCENES.section(blocks) }, HEAT.introduced(heat), ERRORS.introduced(errors)]
 }
 
-/// The sections of a report without pictures: each has a note instead.
 pub fn left_out() -> Vec<Section> {
     let section =
         |part: &Part| part.section(vec![Block::missing(part.pictures, "sahara report, without --no-pictures")]);

@@ -1,4 +1,4 @@
-//! Pictures of the scenes, shaded as in the course of the source report.
+//! Shaded pictures of the scenes.
 
 use image::{Rgb, RgbImage};
 
@@ -8,13 +8,12 @@ use crate::render::{ViewKind, draw, png, size_of};
 use crate::report::number::count;
 use crate::report::words::{listed, scene_name};
 use crate::report::{Art, Block, Cell, Figure, Picture, Table};
-use crate::request::{SceneRequest, guide};
+use crate::request::{SceneRequest, secondary_ray_structure};
 use crate::scene::Scene;
 use crate::study::measure::guarded;
 
 const SIDE: u32 = 208;
 
-/// A scene of the runs.
 pub struct LoadedScene {
     pub scene: Scene,
     pub request: SceneRequest,
@@ -27,7 +26,6 @@ impl LoadedScene {
         [quoted(&self.request.word), view].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
     }
 
-    /// The cube with another name, loaded by `word` and with the view in the JSON `view`.
     #[cfg(test)]
     pub fn cube(word: &str, name: &str, view: &str) -> Self {
         let scene = Scene { name: name.into(), ..crate::builtin::Builtin::find("cube").unwrap().scene(None).unwrap() };
@@ -36,10 +34,9 @@ impl LoadedScene {
     }
 }
 
-/// The picture of a scene, with four rays per pixel; `None` if the tree cannot be built or the drawing fails.
 pub fn picture(loaded: &LoadedScene, registry: &Registry) -> Option<Picture> {
     let scene = &loaded.scene;
-    let accel = guide(registry).ok()?.build(&scene.mesh).ok()?;
+    let accel = secondary_ray_structure(registry).ok()?.build(&scene.mesh).ok()?;
     let size = size_of(scene, SIDE);
     let fine =
         guarded(|| draw(scene, accel.as_ref(), ViewKind::Shaded, size.map(|side| 2 * side), 1)).and_then(Result::ok)?;
@@ -61,16 +58,16 @@ fn halved(fine: &RgbImage) -> RgbImage {
 }
 
 fn caption(loaded: &[LoadedScene]) -> String {
-    let asked = |own: &LoadedScene| Some(format!("{} ({})", own.scene.name, own.request.view.looks_from()?));
-    let asked: Vec<String> = loaded.iter().filter_map(asked).collect();
-    let asked = if asked.is_empty() { String::new() } else { format!("; other views: {}", listed(&asked)) };
+    let view = |own: &LoadedScene| Some(format!("{} ({})", own.scene.name, own.request.view.looks_from()?));
+    let views: Vec<String> = loaded.iter().filter_map(view).collect();
+    let views = if views.is_empty() { String::new() } else { format!("; other views: {}", listed(&views)) };
     format!(
         "The traced scenes, rendered by sahara. Built-in scenes use the source report's cameras, lights and \
-         materials; the default camera of a mesh shows all of it{asked}."
+         materials; the default camera of a mesh shows all of it{views}."
     )
 }
 
-/// A figure of `pictures`, a note for each scene without a picture (`lost`), and a command that draws a picture.
+/// `lost` names the scenes that cannot be loaded or drawn.
 pub fn blocks(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) -> (Vec<Block>, String) {
     let (mut blocks, mut command) = (vec![], String::new());
     if !pictures.is_empty() {

@@ -1,4 +1,4 @@
-//! The marked places of a Markdown file: a run replaces the text between `<!-- sahara: KEY -->` and `<!-- / -->`.
+//! Fills marked places in Markdown: the text between `<!-- sahara: KEY -->` and `<!-- / -->`.
 
 use std::ops::Range;
 
@@ -6,10 +6,9 @@ pub const OPEN: &str = "<!-- sahara: ";
 const END: &str = " -->";
 const CLOSE: &str = "<!-- / -->";
 
-/// The maximum number of columns of a wrapped line.
 const WIDTH: usize = 120;
 
-/// The keys of the marked places, and the range of the text between the marks. Rejects a mark that is not closed.
+/// The key of each place, and the byte range of the text between its marks.
 fn places(text: &str) -> anyhow::Result<Vec<(&str, Range<usize>)>> {
     let (mut places, mut at) = (vec![], 0);
     while let Some(open) = text[at..].find(OPEN) {
@@ -30,14 +29,15 @@ fn places(text: &str) -> anyhow::Result<Vec<(&str, Range<usize>)>> {
     Ok(places)
 }
 
-/// Keys and texts of all marked places, in order; white space is reduced to single spaces.
+/// The key and the text of each place. Runs of white space in the text become single spaces.
 pub fn marked(text: &str) -> anyhow::Result<Vec<(String, String)>> {
     let plain = |place: Range<usize>| text[place].split_whitespace().collect::<Vec<_>>().join(" ");
     Ok(places(text)?.into_iter().map(|(key, place)| (key.to_owned(), plain(place))).collect())
 }
 
-/// The file with `of(key)` in each marked place. If `of(key)` is `None`, the text stays. Paragraphs with marks are
-/// wrapped again. A text of several lines, such as a table, gets blank lines around it.
+/// Writes `of(key)` into each place, or keeps the text if `of(key)` is `None`.
+///
+/// A paragraph is wrapped again if a mark is inside one of its lines.
 pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<String> {
     let (mut filled, mut at) = (String::new(), 0);
     for (key, place) in places(text)? {
@@ -69,7 +69,6 @@ pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<S
     Ok(out)
 }
 
-/// Writes the lines of a paragraph. They are wrapped again if a line contains a mark but does not begin with a mark.
 fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     let lines = std::mem::take(paragraph);
     if !lines.iter().any(|line| line.contains(OPEN) && !line.starts_with(OPEN)) {
@@ -89,8 +88,8 @@ fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     *out += &format!("{line}\n");
 }
 
-/// Splits a text where a line may break. A comment stays with the word before it, because a line that begins with a
-/// comment is not formatted as Markdown. A code span is not split.
+/// Splits a text where a line may break: outside comments and code spans. A comment stays with the word before it.
+/// Otherwise a line could begin with a comment, and Markdown does not format such a line.
 fn words(text: &str) -> Vec<String> {
     let (mut words, mut word, mut is_code): (Vec<String>, String, bool) = (vec![], String::new(), false);
     for piece in text.split_whitespace() {

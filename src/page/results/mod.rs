@@ -1,7 +1,7 @@
-//! `report --results`: a short paper with the findings, a data file, and the generated texts in README.
+//! `report --results`: a paper, a data file, and the generated texts in README.
 //!
-//! All three come from one run. The data file contains every finding by key, and digests of the paper, its figures and
-//! tables: a test fails if one of these files or a text in README does not match the data file.
+//! The data file contains all findings, and digests of the paper, its figures and its tables. A test fails if a file
+//! or README does not match the data file.
 
 mod marks;
 mod paper;
@@ -24,13 +24,12 @@ use crate::report::plot::WIDTH;
 use crate::report::words::each_once;
 use crate::study::Studies;
 
-/// The command that makes all files.
 pub const COMMAND: &str = "sahara report RUN.. --results";
 
-/// Names in the folder of results: the paper, the data file, and the folders of figures and of long tables.
 pub const PAPER: &str = "RESULTS.md";
 pub const DATA: &str = "results.json";
 pub const FIGURES: &str = "figures";
+/// The folder of the long tables, as CSV files.
 pub const TABLES: &str = "results";
 
 /// Names and bytes of files.
@@ -39,12 +38,10 @@ pub type Files = Vec<(String, Vec<u8>)>;
 pub struct Results {
     pub data: ResultsData,
     pub paper: String,
-    /// The files in the folders of figures and of tables.
     pub figures: Files,
     pub tables: Files,
 }
 
-/// The data file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ResultsData {
     pub schema: u32,
@@ -52,11 +49,11 @@ pub struct ResultsData {
     pub run: RunFacts,
     /// The keys are `GROUP.FINDING`, such as `run.machine`. A group is a study, `answer`, `claims` or `run`.
     pub statements: BTreeMap<String, Statement>,
-    /// Digests (SHA-256) of all other files, by their paths relative to the data file.
+    /// SHA-256 digests of the paper, figures and tables, by path relative to the data file.
     pub files: BTreeMap<String, String>,
 }
 
-/// A sentence and its number; the sentence is empty for a finding that is only a number.
+/// A finding. `text` is empty if the finding is only a number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statement {
     pub text: String,
@@ -64,7 +61,7 @@ pub struct Statement {
 }
 
 impl Results {
-    /// The results of `document`, which was made from `runs` of one commit on one machine.
+    /// `document` must be made from `runs`.
     pub fn new(document: &Document, runs: &Runs) -> anyhow::Result<Self> {
         let run = RunFacts::new(runs)?;
         let statements = statements(document, runs, &run);
@@ -74,7 +71,7 @@ impl Results {
         for figure in document.figures() {
             let path = paper::path(&figure.id);
             let Some(chart) = figure.chart().filter(|_| paper.contains(&path)) else { continue };
-            // The answer may use the figure of a study: keep it only once.
+            // The answer may show the figure of a study. Write this figure only once.
             let bytes = chart.svg(WIDTH).into_bytes();
             match figures.iter().find(|(_, known)| *known == bytes) {
                 Some((known, _)) => paper = paper.replace(&path, &format!("{FIGURES}/{known}")),
@@ -89,8 +86,7 @@ impl Results {
         Ok(Self { data, paper, figures, tables })
     }
 
-    /// README with its marked places filled in. For a key without a measurement, README and the data file state that it
-    /// is not measured.
+    /// Fills in README. The data file also receives a statement for each key that is not measured.
     pub fn fill(&mut self, readme: &str, studies: &Studies) -> anyhow::Result<String> {
         for (key, _) in marked(readme).context("README.md")? {
             if self.data.statements.contains_key(&key) {
@@ -114,7 +110,6 @@ impl Results {
     }
 }
 
-/// Every finding of every study, the answer, the tally of the claims, and the run, by key.
 fn statements(document: &Document, runs: &Runs, run: &RunFacts) -> BTreeMap<String, Statement> {
     let sentence = |text: String| Statement { text, value: None };
     let mut all = BTreeMap::new();
@@ -132,7 +127,6 @@ fn statements(document: &Document, runs: &Runs, run: &RunFacts) -> BTreeMap<Stri
     all
 }
 
-/// The build and the machine of a run, its days and its commands.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunFacts {
     pub version: String,
@@ -150,7 +144,7 @@ pub struct RunFacts {
 }
 
 impl RunFacts {
-    /// The facts of `runs`. Rejects runs of more than one commit or machine.
+    /// Rejects runs of different builds or machines.
     pub fn new(runs: &Runs) -> anyhow::Result<Self> {
         let all = runs.provenances();
         let one = |what: &'static str, of: fn(&Provenance) -> &String| -> anyhow::Result<String> {
@@ -182,7 +176,6 @@ impl RunFacts {
         })
     }
 
-    /// Commit, machine and day in one sentence.
     pub fn sentence(&self) -> String {
         let [first, last] = &self.days;
         let days = if first == last { first.clone() } else { format!("{first} to {last}") };
@@ -194,7 +187,7 @@ impl RunFacts {
     }
 }
 
-/// A command without absolute folders, with `sahara` as the name of the program.
+/// Removes the folders of this machine from a command.
 fn portable(command: &str) -> String {
     let name = |(i, word): (usize, &str)| match word.rsplit('/').next() {
         _ if i == 0 => "sahara".to_owned(),

@@ -1,4 +1,4 @@
-//! The paper: a fixed text with placeholders for the answer and for the Markdown of the reports.
+//! The paper: a fixed text in which placeholders are replaced.
 
 use super::{COMMAND, FIGURES, Files, RunFacts, TABLES};
 use crate::page::document::Document;
@@ -7,27 +7,25 @@ use crate::report::markdown::{blocks, escaped, prose};
 use crate::report::words::listed;
 use crate::report::{Art, Block, Table, csv, wrapped};
 
-/// The fixed text; names in double braces are replaced.
+/// Names in double braces are placeholders.
 const FRAME: &str = include_str!("paper.md");
 
 pub const ANSWER: &str = "answer.svg";
 
-/// The maximum number of figures per study in the paper; the page has all figures.
+/// The maximum number of figures per study.
 const FIGURES_SHOWN: usize = 2;
 
-/// Tables with more than `LONG` rows are separate files, except tables whose titles begin with a string of `WHOLE`.
+/// Tables with more rows become CSV files. Exceptions are the titles that begin with a string in `WHOLE`.
 const LONG: usize = 8;
 const WHOLE: [&str; 2] = [CLAIMS, "Speed relative"];
 
-/// The beginning of the title of the table of claims. The paper omits this title: the columns explain the table.
+/// The beginning of the title of the claims table. The paper omits this title, because the columns explain the table.
 const CLAIMS: &str = "Claims";
 
-/// The path of a figure in the paper.
 pub fn path(id: &str) -> String {
     format!("{FIGURES}/{id}.svg")
 }
 
-/// The text of the paper, and the files in the folder of tables.
 pub fn text(document: &Document, runs: &Runs, run: &RunFacts) -> (String, Files) {
     let (results, tables) = results(document, runs);
     let compiler = format!(
@@ -51,7 +49,6 @@ fn paragraph(words: &str) -> String {
     format!("{}\n\n", wrapped(&prose(words), 120).join("\n"))
 }
 
-/// A list with an item for each sentence.
 fn list<'a>(sentences: impl Iterator<Item = &'a str>) -> String {
     let items: Vec<String> =
         sentences.map(|sentence| format!("- {}\n", wrapped(&prose(sentence), 118).join("\n  "))).collect();
@@ -64,7 +61,7 @@ fn answer(document: &Document) -> String {
     if !answer.banner.is_empty() {
         text += &format!("> **{}**\n\n", prose(&answer.banner));
     }
-    // The last section of the paper defines the verdicts.
+    // The last section of the paper explains the other verdicts.
     let reason = if answer.verdict == "Yes" { ": the whole intervals of all three speedups lie above 2" } else { "" };
     text += &format!("**{}** {}{reason}.\n\n", prose(&document.title), prose(&answer.verdict));
     text += &list(answer.sentences.iter().map(String::as_str));
@@ -74,8 +71,6 @@ fn answer(document: &Document) -> String {
     text
 }
 
-/// The sections of the studies, and the long tables as files. A section begins with its findings, without the sentences
-/// of the answer. Texts, the first charts, and short tables about several scenes follow.
 fn results(document: &Document, runs: &Runs) -> (String, Files) {
     let (mut text, mut tables) = (String::new(), vec![]);
     for (own, run) in document.sections.iter().filter_map(|own| runs.of(own.id).map(|run| (own, run))) {
@@ -101,7 +96,7 @@ fn results(document: &Document, runs: &Runs) -> (String, Files) {
             _ => None,
         };
         let shown: Vec<Block> = own.blocks.iter().filter_map(&mut shown).collect();
-        // Omit the command: the section on the method has all commands.
+        // The command is omitted: another section lists all commands.
         text += &format!("## {}\n\n", escaped(own.title));
         let is_new = |sentence: &&str| !document.answer.sentences.iter().any(|own| own == sentence);
         text += &list(found.into_iter().filter(is_new));

@@ -55,7 +55,6 @@ fn marked_places_are_filled_in_and_wrapped() {
     assert!(filled.lines().all(|line| line.chars().count() <= 120), "{filled}");
     assert!(filled.contains("\n  word word"), "the paragraph is indented as before: {filled}");
     assert!(filled.contains("<!-- sahara: t -->\n\n| a |\n| - |\n\n<!-- / -->\n"), "{filled}");
-    // Filling in the places again changes nothing.
     let again = fill(&filled, |key| Some(if key == "t" { "| a |\n| - |".into() } else { long.trim().into() })).unwrap();
     assert_eq!(again, filled);
     assert_eq!(fill(&filled, |_| None).unwrap(), filled);
@@ -63,12 +62,10 @@ fn marked_places_are_filled_in_and_wrapped() {
     assert!(open.contains("\"k\" is not closed"), "{open}");
 }
 
-/// The results of `runs`, without rendered pictures.
 fn results(runs: &Runs) -> anyhow::Result<Results> {
     Results::new(&document(runs, &STUDIES, vec![]), runs)
 }
 
-/// Checks that the paper names each table file once and shows exactly the written figures, which all differ.
 fn assert_files_match_paper(results: &Results) {
     let paper = results.paper.replace('\n', " ");
     for (name, _) in &results.tables {
@@ -139,7 +136,7 @@ fn unmarked(text: &str) -> String {
         .collect()
 }
 
-/// Numbers with a few words around them.
+/// Each number in the text, with a few words around it.
 fn numbers(text: &str) -> Vec<String> {
     let part = |c: char| c.is_ascii_digit() || c == '.' || c == ',';
     let begins = |at: &usize| !text[..*at].ends_with(part);
@@ -152,8 +149,7 @@ fn numbers(text: &str) -> Vec<String> {
     starts.map(around).collect()
 }
 
-/// Numbers that are not measured: the level of intervals, the value that ratios are compared with, the version of a
-/// licence.
+/// Numbers in README that are not measured.
 const ALLOWED: [&str; 3] = ["are 95 % prediction", "from 1.", "Apache 2.0,"];
 
 #[test]

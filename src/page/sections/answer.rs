@@ -1,4 +1,4 @@
-//! The open question of the source report, and the answer, which is made from the findings of studies.
+//! Answers the open question of the source report from the findings of the studies.
 
 use crate::measure::Estimate;
 use crate::page::document::{Answer, Headline};
@@ -6,7 +6,7 @@ use crate::page::runs::{COMPARE, Runs, scene_titles};
 use crate::report::Figure;
 use crate::report::number::{figures, plural};
 use crate::report::plot::{Bar, Bars, Chart};
-use crate::report::words::{ended, ends, listed, slug};
+use crate::report::words::{ended, interval_text, listed, slug};
 use crate::study::claims;
 use crate::study::compare::FASTEST;
 
@@ -18,18 +18,19 @@ const SCENES: [&str; 3] = ["dragon", "lucy", "sponza"];
 /// A tree is called much faster if the interval of its speedup lies above this ratio.
 const MUCH: f64 = 2.0;
 
-/// Two studies: the SAH tree's speedup on the hard scenes, and the factors of this speedup.
+/// The study that measures the SAH tree's speedup on the hard scenes.
 const REPLICATE: &str = "replicate";
+/// The study that divides the speedup of the SAH tree into factors.
 const ATTRIBUTION: &str = "attribution";
 
-/// A hard scene: its name in keys and in tables, and the speedup of the SAH tree.
 struct Hard {
     key: &'static str,
     title: String,
+    /// The speedup of the SAH tree.
     ratio: Estimate,
 }
 
-/// The hard scenes that `replicate` measured, their mean speedup and a sentence on it; `None` without such scenes.
+/// Returns the measured hard scenes, their mean speedup, and a sentence about the mean.
 fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
     let run = runs.of(REPLICATE)?;
     let hard = |key: &'static str| {
@@ -43,7 +44,6 @@ fn hard(runs: &Runs) -> Option<(Vec<Hard>, Option<Estimate>, String)> {
     (!hard.is_empty()).then_some((hard, mean.and_then(|finding| finding.value), sentence))
 }
 
-/// A warning if a run used `--quick`; otherwise empty.
 fn banner(runs: &Runs) -> String {
     if !runs.commands().iter().any(|command| command.split(' ').any(|word| word == "--quick")) {
         return String::new();
@@ -53,9 +53,8 @@ fn banner(runs: &Runs) -> String {
         .into()
 }
 
-/// The question of the page and its answer, from `replicate`, or from `compare` if `replicate` has no hard scene.
 pub fn answer(runs: &Runs) -> (String, Answer) {
-    let Some((hard, mean, sentence)) = hard(runs) else { return otherwise(runs) };
+    let Some((hard, mean, sentence)) = hard(runs) else { return answer_without_hard_scenes(runs) };
     let numbers = hard.iter().map(|own| headline(&own.title, own.ratio));
     let numbers = numbers.chain(mean.filter(|_| hard.len() > 1).map(|mean| headline("geometric mean", mean)));
     let mut answer = Answer {
@@ -76,18 +75,21 @@ pub fn answer(runs: &Runs) -> (String, Answer) {
     (QUESTION.into(), answer)
 }
 
-/// A sentence with the numbers of confirmed, refuted, undecided and unmeasured claims.
 pub fn tally(runs: &Runs) -> String {
     let verdicts = runs.studies.iter().flat_map(|run| &run.report.verdicts);
     format!("Claims written before the measurement: {}.", claims::tally(verdicts))
 }
 
 fn headline(label: &str, ratio: Estimate) -> Headline {
-    Headline { number: format!("{} ×", figures(ratio.estimate)), interval: ends(ratio, figures), label: label.into() }
+    Headline {
+        number: format!("{} ×", figures(ratio.estimate)),
+        interval: interval_text(ratio, figures),
+        label: label.into(),
+    }
 }
 
 fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
-    // Several scenes are judged together, so their intervals are widened. The mean is one value and is not widened.
+    // Several scenes are judged together, so their intervals are widened. The mean is a single value.
     let all = |is: &dyn Fn(Estimate) -> bool| hard.iter().all(|own| is(own.ratio.ratio_among(hard.len())));
     let either = |is: &dyn Fn(Estimate) -> bool| all(is) || mean.is_some_and(is);
     let verdict = match () {
@@ -117,8 +119,8 @@ fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     Bars::of_products("speedup over the report's tree", vec!["SAH tree".into()], hard.iter().map(bar))
 }
 
-/// Question and answer if no hard scene was measured: the fastest structure of `compare`, or `Not measured`.
-fn otherwise(runs: &Runs) -> (String, Answer) {
+/// The answer for runs without hard scenes: the fastest structure of `compare`, or `Not measured`.
+fn answer_without_hard_scenes(runs: &Runs) -> (String, Answer) {
     let mut answer = Answer { banner: banner(runs), verdict: "Not measured".into(), ..Answer::default() };
     let mut title = QUESTION.to_owned();
     if let Some(run) = runs.of(COMPARE) {

@@ -11,8 +11,6 @@ use crate::study::{Dataset, Studies};
 
 pub use answer::tally;
 
-/// The whole report. The sections `pictures` come first. The last section has the provenance, and the question and the
-/// command of each study without a measurement.
 pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Document {
     let (title, answer) = answer::answer(runs);
     let sections = pictures.into_iter().chain(runs.studies.iter().map(section)).collect();
@@ -25,10 +23,9 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
     document
 }
 
-/// The section of a study: findings, verdicts on claims, blocks, failures, warnings, and notes on datasets not shown.
 fn section(run: &StudyRun) -> Section {
     let StudyRun { study, others, report, .. } = run;
-    // A finding without a sentence, such as the name of the fastest structure, is for other parts of the page.
+    // Other parts of the page use the findings without a sentence.
     let found = report.findings.iter().filter(|own| !own.sentence.is_empty());
     let mut blocks: Vec<Block> = found.map(|finding| Block::Text(finding.sentence.clone())).collect();
     blocks.extend(report.verdict_table().map(Block::Table));
@@ -39,7 +36,7 @@ fn section(run: &StudyRun) -> Section {
     Section { id: study.name, title: study.question, command: run.commands().join("\n"), blocks }
 }
 
-/// Makes the ids of figures unique: scenes with similar names have figures with equal ids.
+/// Makes the ids of figures unique, because scenes with similar names lead to equal ids.
 fn name_apart(blocks: &mut [Block], known: &mut Vec<String>) {
     for block in blocks {
         match block {
@@ -55,7 +52,6 @@ fn name_apart(blocks: &mut [Block], known: &mut Vec<String>) {
     }
 }
 
-/// The machines and builds, all notes, and the missing measurements `missing`.
 fn provenance(runs: &Runs, missing: Vec<Block>) -> Section {
     let note = "For each study and scene, the page uses the newest cases that share settings, build and machine. The \
                 page shows the settings, build and machine with the most cases of a study.";

@@ -18,7 +18,7 @@ use crate::study::epoch::tests as epoch;
 use crate::study::measurement::measurements;
 use crate::study::{Case, Dataset, Measured, Plan, Presets, Studies, Study};
 
-/// Three studies with invented results, which can report on any dataset.
+/// Three studies with invented results.
 pub static STUDIES: LazyLock<Studies> = LazyLock::new(|| {
     Studies::empty()
         .with(study("attribution", "What is it due to?", attribution))
@@ -128,7 +128,6 @@ pub fn measured(study: &str, scene: &str) -> Measured {
 
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// A journal with one epoch of each scene of `scenes`.
 pub fn journal(study: &str, scenes: &[&str], provenance: &Provenance) -> Files {
     let file = |scene: &&str| {
         let Measured { case, epoch } = measured(study, scene);
@@ -159,7 +158,6 @@ pub fn read(folder: &Path) -> Runs<'static> {
     Runs::read(&[folder.to_path_buf()], &STUDIES).unwrap()
 }
 
-/// Runs in which each study measured the scenes beside its name.
 pub fn runs(studies: &[(&str, &[&str])]) -> Runs<'static> {
     let provenance = provenance("2026-01-02T03:04:05Z");
     let files: Vec<Files> = studies.iter().map(|(study, scenes)| journal(study, scenes, &provenance)).collect();
@@ -170,7 +168,7 @@ pub fn refused(path: PathBuf) -> RunError {
     Runs::read(&[path], &STUDIES).err().expect("it cannot be read")
 }
 
-/// A page with all types of blocks and figures, from a scene called `scene`.
+/// A page with all types of blocks and figures.
 pub fn whole(scene: &str) -> (Document, Runs<'static>) {
     let runs = runs(&[("compare", &[scene]), ("attribution", &[scene]), ("replicate", &[scene])]);
     let picture = |name: &str| Picture {
@@ -207,7 +205,6 @@ pub fn whole(scene: &str) -> (Document, Runs<'static>) {
     (document(&runs, &STUDIES, vec![pictures]), runs)
 }
 
-/// [`whole`] for an ordinary scene, made once.
 pub fn cube() -> &'static (Document, Runs<'static>) {
     static CUBE: OnceLock<(Document, Runs)> = OnceLock::new();
     CUBE.get_or_init(|| whole("Cube"))

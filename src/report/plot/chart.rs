@@ -14,12 +14,11 @@ pub enum Chart {
     Scatter(Scatter),
 }
 
-/// Speedups as groups of bars with intervals. Every bar starts at 1 on a logarithmic axis. All groups have the same
-/// axis, and the same labels in the same order. A bar may be split into the factors of a product.
+/// Groups of bars on one logarithmic axis. Every bar starts at 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bars {
     pub x_title: String,
-    /// Names of the bars, the same in every group. The name determines the colour of the bar.
+    /// Names of the bars, equal in all groups. The name determines the colour.
     pub labels: Vec<String>,
     /// Names of the factors of the bars; empty if the bars have no factors.
     pub parts: Vec<String>,
@@ -33,13 +32,13 @@ pub struct BarGroup {
     pub bars: Vec<Bar>,
 }
 
-/// One bar. All numbers are positive.
+/// All numbers are positive.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bar {
     Of(Estimate),
     /// One factor for each of [`Bars::parts`], and the product.
     Product(Vec<f64>, Estimate),
-    /// The reason why there is no bar, in a word or two; may be empty.
+    /// The reason why the bar is missing; may be empty.
     Missing(String),
 }
 
@@ -53,7 +52,6 @@ impl Bar {
 }
 
 impl Bars {
-    /// One group of products without a heading; `parts` names the factors.
     pub fn of_products(x_title: &str, parts: Vec<String>, rows: impl IntoIterator<Item = (String, Bar)>) -> Self {
         let (labels, bars) = rows.into_iter().unzip();
         let group = BarGroup { title: String::new(), bars };
@@ -61,7 +59,7 @@ impl Bars {
     }
 }
 
-/// Lines through points on two logarithmic axes: a power law is a straight line.
+/// Lines through points on two logarithmic axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     pub x_title: String,
@@ -69,18 +67,17 @@ pub struct Curves {
     pub lines: Vec<Line>,
 }
 
-/// A line through points, from left to right.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The name of the line. It determines the colour.
+    /// The label determines the colour.
     pub label: String,
     /// The text after the label in the legend.
     pub note: String,
-    /// Both coordinates are positive.
+    /// Points from left to right. Both coordinates are positive.
     pub points: Vec<(f64, f64)>,
 }
 
-/// Points on two logarithmic axes, with the Pareto front.
+/// Points on two logarithmic axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
     pub x_title: String,
@@ -88,26 +85,24 @@ pub struct Scatter {
     pub points: Vec<Point>,
 }
 
-/// A point. Both coordinates are positive and finite.
+/// Both coordinates are positive and finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     pub x: f64,
     pub y: f64,
-    /// Whether only an upper bound of `y` is known: then an arrow points down from the point.
+    /// Whether `y` is only an upper bound.
     pub is_bound: bool,
-    /// Whether the point is on the Pareto front. Points of the front are filled, and a line joins them.
+    /// Whether the point is on the Pareto front.
     pub is_front: bool,
-    /// The text beside the point.
     pub label: String,
-    /// The name of the point's group. It determines the colour.
+    /// The group determines the colour.
     pub group: String,
 }
 
-/// The maximum number of points that are all labelled. With more points, only the front is labelled.
+/// The maximum number of points that are all labelled. With more points, only the Pareto front is labelled.
 pub const LABELLED: usize = 20;
 
 impl Scatter {
-    /// The distinct groups, in the order of their first points.
     pub fn groups(&self) -> Vec<String> {
         distinct(self.points.iter().map(|point| &point.group))
     }

@@ -1,5 +1,4 @@
-//! Charts as data: bars, curves and scatter plots. The feature `page` adds functions that draw them as SVG of a
-//! requested width. Text has the same size at every width.
+//! Charts as data: bars, curves and scatter plots. The feature `page` adds their drawings as SVG.
 
 mod chart;
 #[cfg(feature = "page")]

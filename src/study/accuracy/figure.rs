@@ -7,7 +7,6 @@ use crate::report::plot::{Chart, LABELLED, Point, Scatter};
 use crate::report::words::slug;
 use crate::report::{Art, Figure};
 
-/// The chart of one scene and workload; `number` becomes part of its id.
 pub fn figure(number: usize, of_kind: &JudgedRays) -> Figure {
     let JudgedRays { epoch, kind, structures, .. } = of_kind;
     let front = structures.iter().filter(|own| own.dominated_by.is_none()).map(|own| {
@@ -55,7 +54,6 @@ fn scatter(of_kind: &JudgedRays) -> Scatter {
     }
 }
 
-/// The label without the triangle test.
 fn without_test(own: &Judged) -> String {
     let label = &own.structure.label;
     let (name, keys) = label.split_once(':').unwrap_or((label, ""));

@@ -1,4 +1,4 @@
-//! Findings: with which triangle tests the structures without known defects return wrong results, and how often.
+//! Findings: the wrong results of structures without known defects, by triangle test.
 
 use super::judged::{Judged, JudgedRays};
 use crate::report::Finding;
@@ -6,7 +6,7 @@ use crate::report::number::{count, figures};
 use crate::report::words::{distinct, listed, slug};
 use crate::request::known_defect;
 
-/// The finding on one scene and workload; `None` if every structure has a known defect.
+/// `None` if every structure has a known defect.
 pub fn finding(of_kind: &JudgedRays) -> Option<Finding> {
     let is_ours = |judged: &&Judged| known_defect(&judged.structure.name).is_none();
     let own: Vec<&Judged> = of_kind.structures.iter().filter(is_ours).collect();

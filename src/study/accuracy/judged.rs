@@ -16,22 +16,20 @@ pub struct JudgedRays<'a> {
     pub structures: Vec<Judged<'a>>,
 }
 
-/// One structure over one triangle test on one workload: its errors and its speed.
 pub struct Judged<'a> {
     pub structure: &'a Structure,
     pub rays: &'a Rays,
     pub errors: &'a ErrorCounts,
-    /// Median of the samples, ns.
+    /// Median of the samples.
     pub ns_per_ray: f64,
     /// Share of the rays with a wrong result: missed hit, false hit or wrong depth.
     pub error: f64,
     /// Upper bound of the true share, with 95 % confidence.
     pub error_bound: f64,
-    /// The label of a structure on the Pareto front that is no slower and no less accurate; `None` on the front.
+    /// The label of a dominating structure on the Pareto front; `None` on the front.
     pub dominated_by: Option<&'a str>,
 }
 
-/// All structures with a time, by scene and workload.
 pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
     let mut all = vec![];
     for scene in dataset.scenes() {
@@ -39,7 +37,7 @@ pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
         let kinds = each_once(epoch.structures.iter().flat_map(|own| &own.rays).map(|rays| rays.workload.as_str()));
         for kind in kinds {
             let mut structures: Vec<Judged> = epoch.structures.iter().filter_map(|own| Judged::of(own, kind)).collect();
-            // Compare upper bounds: one error in many rays may be a lower rate than no error in few rays.
+            // Upper bounds are compared: one error in many rays may mean a lower rate than none in few rays.
             let points: Vec<(f64, f64)> = structures.iter().map(|own| (own.ns_per_ray, own.error_bound)).collect();
             let labels: Vec<&str> = structures.iter().map(|own| own.structure.label.as_str()).collect();
             for (own, dominator) in structures.iter_mut().zip(dominators(&points)) {
@@ -54,12 +52,10 @@ pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
 }
 
 impl JudgedRays<'_> {
-    /// A short description of the rays.
     pub fn description(&self) -> &'static str {
         self.kind.parse().map_or("rays of a file", RayKind::description)
     }
 
-    /// The maximum of `of` over the structures.
     pub fn most(&self, of: fn(&Judged) -> u64) -> u64 {
         self.structures.iter().map(of).max().unwrap_or(0)
     }
@@ -75,14 +71,12 @@ impl<'a> Judged<'a> {
         Some(Self { structure, rays, errors, ns_per_ray, error, error_bound, dominated_by: None })
     }
 
-    /// Whether only a subset of the rays is judged.
     pub fn is_sampled(&self) -> bool {
         self.errors.rays < self.rays.all as u64
     }
 }
 
-/// For each point (cost, error), the cheapest point of the Pareto front that dominates it; `None` for a point of the
-/// front. A point dominates another point if it is not worse in either coordinate, and better in one.
+/// For each point (cost, error), returns the cheapest dominating point of the Pareto front.
 ///
 /// # References
 /// Kung, Luccio, Preparata: On finding the maxima of a set of vectors. J. ACM 22, 1975.

@@ -1,5 +1,4 @@
-//! `accuracy`: error and speed. Every structure with every triangle test traces the same rays on one thread. The exact
-//! oracle judges the hits.
+//! `accuracy`: error and speed of every structure with every triangle test. Exact arithmetic judges the hits.
 
 mod figure;
 mod findings;
@@ -20,7 +19,7 @@ use crate::report::words::{each_once, each_once_by};
 use crate::report::{Block, Failure, Report};
 use crate::request::{
     BRUTE_FORCE, MEASURING, RAYS, RayKind, RaySource, STRUCTURES, Scenes, Seconds, StructureRequest, WorkloadRequest,
-    each_kind, guide, known_defect, known_tests, replayed, scene_files, specs,
+    each_kind, known_defect, known_tests, replayed, scene_files, secondary_ray_structure, specs,
 };
 use crate::scene::Scene;
 use crate::triangle::{Exact, TriangleTest};
@@ -72,10 +71,10 @@ const BUDGET: Seconds = Seconds::whole(40);
 /// The default selection omits brute force on meshes with more triangles than this.
 const SMALL: usize = 5000;
 
-/// If the report has more findings than this, the terminal prints them only with `--verbose`.
+/// With more findings, the terminal prints the findings only with `--verbose`.
 const HEADLINES: usize = 3;
 
-/// A structure that takes more than this multiple of the median time of all structures is timed on fewer rays.
+/// A structure that takes longer than this multiple of the median is timed on fewer rays.
 const SLOWEST: f64 = 30.0;
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
@@ -94,7 +93,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
         slowest: Some(SLOWEST),
         check: Check::Oracle,
         seed: args.seed,
-        ..Settings::for_guide(guide(registry)?.label)
+        ..Settings::one_sample(secondary_ray_structure(registry)?.label)
     };
 
     let leaves_out = |own: &(OsString, Scene)| args.structure.is_empty() && own.1.mesh.len() > SMALL;
@@ -118,7 +117,6 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     Ok(plan)
 }
 
-/// The requested structures over each requested triangle test that they offer.
 fn structures(registry: &Registry, named: &[String], tests: &[String]) -> anyhow::Result<Vec<StructureRequest>> {
     known_tests(registry, tests)?;
     let mut chosen: Vec<StructureRequest> = vec![];
@@ -163,7 +161,6 @@ fn report(dataset: &Dataset, _: &ArgMatches) -> Report {
     Report { findings, blocks, failures: failures(dataset, &all), data: table::data(&all), ..Report::default() }
 }
 
-/// Structures without times. Also structures without known defects that have wrong hits over the exact triangle test.
 fn failures(dataset: &Dataset, all: &[JudgedRays]) -> Vec<Failure> {
     let mut failures = vec![];
     for judged in all.iter().flat_map(|of_kind| &of_kind.structures) {

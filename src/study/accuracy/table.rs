@@ -1,11 +1,10 @@
-//! The study as tables.
+//! The tables of the accuracy study.
 
 use super::judged::{Judged, JudgedRays};
 use crate::report::number::count;
 use crate::report::{Cell, Format, Table, Tone};
 use crate::validate::Ulps;
 
-/// The table of one scene and workload.
 pub fn table(of_kind: &JudgedRays) -> Table {
     let JudgedRays { epoch, kind, structures, .. } = of_kind;
     let title = format!(
@@ -56,7 +55,6 @@ fn ulps(own: &Judged, value: fn(&Ulps) -> f64) -> Cell {
     own.errors.ulps.as_ref().map(value).into()
 }
 
-/// The meaning of the columns.
 pub const LEGEND: [&str; 4] = [
     "slowest: nanoseconds of the slowest ray, traced alone, including the call.",
     "error: share of rays with a wrong result by exact arithmetic: a missed hit, a false hit, or a depth that is off by \

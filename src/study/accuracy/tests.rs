@@ -13,7 +13,6 @@ fn planned(words: &str) -> anyhow::Result<Plan> {
     plan(&STUDY.matches(&words).unwrap(), &Registry::builtin())
 }
 
-/// The dataset of a run with these options.
 fn measured(words: &str) -> Dataset {
     let measured = planned(words).unwrap().cases.into_iter().map(|case| {
         let prepared = Prepared::new(&case, &Registry::builtin(), None).unwrap();
@@ -51,7 +50,7 @@ fn exact_is_right_and_single_precision_is_not() {
         assert!(exact.errors.ulps.unwrap().max <= 0.5 && rounds.error < rounds.error_bound);
         // The bound for no error in 400 rays is 1 - 0.05^(1 / 400).
         assert!((exact.error_bound - 0.007461).abs() < 1e-6, "{}", exact.error_bound);
-        // The other structure has a higher error bound, so it cannot dominate, even if it is faster.
+        // The other structure has a higher error bound. It cannot dominate, even if it is faster.
         assert!(exact.dominated_by.is_none());
     }
     assert_eq!(all.len(), KNOWN.len());
@@ -60,9 +59,9 @@ fn exact_is_right_and_single_precision_is_not() {
     assert!(report.failures.is_empty());
     let keys: Vec<&str> = report.findings.iter().map(|finding| finding.key.as_str()).collect();
     assert_eq!(keys, ["torus-edge", "torus-grazing"]);
-    let told = "Torus, 400 edge rays: our structures return no wrong result with the exact triangle test; share of \
+    let start = "Torus, 400 edge rays: our structures return no wrong result with the exact triangle test; share of \
                 wrong results with other tests: moller-trumbore";
-    assert!(report.findings[0].sentence.starts_with(told), "{}", report.findings[0].sentence);
+    assert!(report.findings[0].sentence.starts_with(start), "{}", report.findings[0].sentence);
     assert!(report.tables().all(|table| table.of_scene && table.rows.len() == 2 && table.notes.is_empty()));
     assert_eq!((report.tables().count(), report.data.rows.len()), (2, 4));
     assert!(report.tables().chain([&report.data]).all(|t| t.rows.iter().all(|row| row.len() == t.columns.len())));
@@ -76,7 +75,7 @@ fn what_is_refused_or_owes_the_truth_and_errs_fails() {
     let changes: [(Change, &[(&str, bool)]); 4] = [
         (|_| (), &[]),
         (|own| own.epoch.structures[0].rays[0].errors.as_mut().unwrap().missed = 1, &[("", true)]),
-        // The first structure has a known defect, and the second one a triangle test that is not exact.
+        // The first structure has a known defect. The triangle test of the second structure is not exact.
         (
             |own| {
                 own.epoch.structures[0].name = "bvh".into();
@@ -125,7 +124,6 @@ fn brute_force_is_left_out_of_large_meshes_unless_it_is_named() {
         let has_brute = |case: &crate::study::Case| case.structures.iter().any(|own| own.name() == BRUTE_FORCE);
         assert_eq!(plan.cases.iter().map(has_brute).collect::<Vec<_>>(), takes_part, "{words}");
         assert_eq!(plan.notes.len(), notes, "{words}");
-        // No structure is planned twice with the same triangle test.
         let labels = plan.cases[0].structures.iter().map(|own| &own.spec);
         assert_eq!(each_once(labels).len(), plan.cases[0].structures.len(), "{words}");
     }

@@ -7,11 +7,8 @@ named_enum! {
     /// The factors of the design.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Factor {
-        /// The position of a split.
         Plane = "plane",
-        /// The condition for a leaf.
         Stop = "stop rule",
-        /// The method of traversal.
         Traversal = "traversal",
     }
 }
@@ -19,7 +16,7 @@ named_enum! {
 /// A value of a factor: its name, and the keys of the structure that select it.
 pub type Level = (&'static str, &'static str);
 
-/// Split planes: the report's rule first, the surface area heuristic over all planes last.
+/// The report's rule comes first, the surface area heuristic over all planes last.
 const PLANES: [Level; 6] = [
     ("vertex median cyclic", "plane=vertex-median,axis=cyclic"),
     ("vertex median longest", "plane=vertex-median,axis=longest"),
@@ -29,14 +26,14 @@ const PLANES: [Level; 6] = [
     ("SAH exact", "plane=sah-sweep"),
 ];
 
-/// Stop rules: the report's rule, then "at most eight triangles", then the surface area heuristic.
+/// The report's rule comes first, the surface area heuristic last.
 const STOPS: [Level; 3] = [
     ("report", "stop=report,leaf=100,threshold=0.7,limit=below"),
     ("leaf 8", "stop=leaf,leaf=8,limit=at-most"),
     ("SAH", "stop=sah"),
 ];
 
-/// Traversals: the report's, then the usual one.
+/// The report's traversal comes first.
 const TRAVERSALS: [Level; 2] =
     [("child boxes", "traversal=child-boxes"), ("plane intervals", "traversal=plane-intervals")];
 
@@ -46,12 +43,11 @@ const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,d
 /// Trees that are built twice, for the A/A check.
 pub const TWINS: [Treatment; 2] = [Treatment::REPORT, Treatment::SAH];
 
-/// The trees of a case with their roles: the trees of the design in order, then the twins.
+/// The trees of the design in order, then the twins; each tree with its role.
 pub fn trees() -> impl Iterator<Item = (Treatment, String)> {
     Treatment::all().map(|cell| (cell, cell.role())).chain(TWINS.map(|cell| (cell, TWIN.into())))
 }
 
-/// The number of cells of the design.
 pub const CELLS: usize = PLANES.len() * STOPS.len() * TRAVERSALS.len();
 
 /// One cell of the design: the index of the level of each factor.
@@ -59,9 +55,7 @@ pub const CELLS: usize = PLANES.len() * STOPS.len() * TRAVERSALS.len();
 pub struct Treatment(pub [usize; 3]);
 
 impl Treatment {
-    /// The report's tree.
     pub const REPORT: Self = Self([0; 3]);
-    /// The SAH tree.
     pub const SAH: Self = Self([PLANES.len() - 1, STOPS.len() - 1, TRAVERSALS.len() - 1]);
 
     /// All cells, ordered by their [number](Self::number).
@@ -70,7 +64,6 @@ impl Treatment {
         (0..CELLS).map(move |i| Self([i / traversals / stops, i / traversals % stops, i % traversals]))
     }
 
-    /// The index of the cell among all cells.
     pub fn number(self) -> usize {
         let [plane, stop, traversal] = self.0;
         (plane * STOPS.len() + stop) * TRAVERSALS.len() + traversal
@@ -82,12 +75,12 @@ impl Treatment {
         [PLANES[plane], STOPS[stop], TRAVERSALS[traversal]]
     }
 
-    /// The role of the cell's tree in the study: `SAH exact / SAH / plane intervals`.
+    /// For example `SAH exact / SAH / plane intervals`.
     pub fn role(self) -> String {
         self.levels().map(|(name, _)| name).join(" / ")
     }
 
-    /// The tree of the cell over the triangle test `test`, as `NAME:key=value,..`.
+    /// `NAME:key=value,..` over the triangle test `test`.
     pub fn spec(self, test: &str) -> String {
         format!("median-kd:test={test},{},{COMMON}", self.levels().map(|(_, keys)| keys).join(","))
     }
@@ -102,7 +95,7 @@ mod tests {
     #[test]
     fn the_corners_are_the_trees_that_they_stand_for() {
         let registry = Registry::builtin();
-        // Convert the configuration to the type of the tree and back, which makes 1 and 1.0 equal.
+        // The conversion to `KdConfig` and back makes 1 and 1.0 equal.
         let config = |spec: &str| {
             let config: KdConfig = serde_json::from_value(registry.choose(spec).unwrap().config).unwrap();
             serde_json::to_value(config).unwrap()

@@ -34,19 +34,17 @@ pub fn findings(results: &[Attribution]) -> Vec<Finding> {
     findings
 }
 
-/// The result of the scene `name`, with its stand-in if `stand_in`, otherwise with its real mesh.
 fn result_of<'a>(results: &'a [Attribution<'a>], name: &str, stand_in: bool) -> Option<&'a Attribution<'a>> {
     results.iter().find(|r| r.first().scene == name && r.first().stand_in == stand_in)
 }
 
-/// The factor that contributes most to the speedup on the hard scenes.
 fn parts(hard: &[&Attribution]) -> Option<Finding> {
     let scenes = listed(&hard.iter().map(|r| r.first().scene_title()).collect::<Vec<_>>());
-    let told = |factor: &Factor| {
+    let phrase = |factor: &Factor| {
         let parts: Vec<String> = hard.iter().map(|r| interval(r.part(*factor))).collect();
         format!("{} {}", words(*factor), listed(&parts))
     };
-    // The largest factor on all scenes: its interval lies above the intervals of the other factors.
+    // The interval of the largest factor lies above the intervals of the other factors on every scene.
     let first = Factor::ALL.into_iter().find(|&factor| {
         let above = |r: &Attribution, other: Factor| r.part(factor).low() > r.part(other).high();
         hard.iter().all(|r| Factor::ALL.into_iter().all(|other| other == factor || above(r, other)))
@@ -56,16 +54,14 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
         Some(factor) => format!("On {scenes} most of the speedup is due to the {}", words(factor)),
         None => format!("No single factor gives most of the speedup on {all_of}{scenes}"),
     };
-    let factors = Factor::ALL.iter().map(told).collect::<Vec<_>>().join("; ");
+    let factors = Factor::ALL.iter().map(phrase).collect::<Vec<_>>().join("; ");
     (!hard.is_empty()).then(|| Finding::new("parts", format!("{most}. The factors{order}: {factors}.")))
 }
 
-/// The name of a factor in sentences.
 fn words(factor: Factor) -> &'static str {
     if factor == Factor::Plane { "split plane" } else { factor.name() }
 }
 
-/// The speedup of a scene as a product of factors, and the [range](Attribution::range) of each factor.
 pub fn split(r: &Attribution) -> Finding {
     let whole = r.whole();
     let parts = Factor::ALL.map(|factor| format!("{} {}", words(factor), figures(r.part(factor).estimate)));
@@ -81,8 +77,8 @@ pub fn split(r: &Attribution) -> Finding {
     Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).with_value(whole)
 }
 
-/// How much more the SAH tree gains on Sponza than on Dragon and on Lucy. Compares real meshes. If their results are
-/// missing, compares stand-ins.
+/// How much more the SAH tree gains on Sponza than on Dragon and on Lucy. Stand-ins are compared only if the results
+/// of real meshes are missing.
 fn gains(results: &[Attribution]) -> Vec<Finding> {
     let of = |stand_in: bool| -> Vec<Finding> {
         let whole = |name: &str| Some(result_of(results, name, stand_in)?.whole());
@@ -92,7 +88,7 @@ fn gains(results: &[Attribution]) -> Vec<Finding> {
     [false, true].map(of).into_iter().find(|found| !found.is_empty()).unwrap_or_default()
 }
 
-/// Kendall's tau of SAH cost and time among the trees with the same traversal: the mean over traversals and scenes.
+/// Kendall's tau of SAH cost and time among trees with one traversal, averaged over traversals and scenes.
 fn tau(results: &[Attribution]) -> Option<Estimate> {
     let families = results.iter().flat_map(|r| [0, 1].map(|traversal| (r, traversal)));
     let taus = families.filter_map(|(r, traversal)| {

@@ -1,9 +1,8 @@
-//! `attribution`: how much of the SAH speedup comes from the split plane, the stop rule and the traversal?
+//! `attribution`: the shares of split plane, stop rule and traversal in the SAH speedup.
 //!
-//! The trees are all combinations of six split planes, three stop rules and two traversals, over one triangle test and
-//! on the same rays: a factorial design. Every epoch rebuilds all trees and times them in rounds; a round times every
-//! tree once, in random order. The report's tree and the SAH tree are built twice, for the A/A check. The role of a
-//! structure is its cell of the design, or `twin` for a second build.
+//! The design is factorial: six split planes, three stop rules and two traversals in all combinations. The report's
+//! tree and the SAH tree are built twice, for the A/A check. The role of a structure is its cell of the design, or
+//! `twin` for a second build.
 
 mod design;
 mod findings;
@@ -52,7 +51,7 @@ struct AttributionArgs {
     /// Triangle test of all trees (see `sahara list`)
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME", default_value = "exact")]
     test: String,
-    // The default epochs, runs and budget (s). All claims are judged together, which needs many epochs.
+    // The defaults of epochs, runs and budget in seconds. All claims are judged together, which needs many epochs.
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }

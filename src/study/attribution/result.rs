@@ -7,7 +7,7 @@ use crate::study::measurement::{Measurement, of_scene};
 use crate::study::{Dataset, Epoch, SceneEpochs};
 
 pub struct Attribution<'a> {
-    /// The epochs of a scene; each has the [`trees`] of the design.
+    /// Each epoch has the [`trees`] of the design.
     pub epochs: Vec<&'a Epoch>,
     /// One measurement per cell, in the order of [`Treatment::number`].
     pub trees: Vec<Measurement>,
@@ -17,7 +17,7 @@ pub struct Attribution<'a> {
     pub noise: AaNoise,
 }
 
-/// One result per scene. A scene with other trees than the design is omitted.
+/// A scene with other trees than the design is omitted.
 pub fn results(dataset: &Dataset) -> Vec<Attribution<'_>> {
     let roles: Vec<String> = trees().map(|(_, role)| role).collect();
     let is_designed = |epoch: &&Epoch| epoch.structures.iter().map(|own| &own.role).eq(&roles);
@@ -28,7 +28,7 @@ pub fn results(dataset: &Dataset) -> Vec<Attribution<'_>> {
     results
 }
 
-/// Time per ray of each sample of a tree, ns, on the rays that all trees are timed on.
+/// Time per ray of each sample in ns, on the rays that all trees are timed on.
 fn paces(epoch: &Epoch, tree: usize) -> Vec<f64> {
     let rays = &epoch.structures[tree].rays[0];
     rays.ns_per_ray(epoch.common_rays(&rays.workload))
@@ -48,12 +48,12 @@ impl<'a> Attribution<'a> {
         [0, 1].map(|i| log(i).into_iter().map(|log| vec![log]).collect())
     }
 
-    /// The measurement of the report's tree; all trees of the scene share its fields about scene and workload.
+    /// The measurement of the report's tree. Its fields about scene and workload apply to all trees of the scene.
     pub fn first(&self) -> &Measurement {
         &self.trees[0]
     }
 
-    /// Median time per ray over all samples, ns.
+    /// The median over all samples.
     pub fn ns_per_ray(&self, cell: Treatment) -> f64 {
         let paces = self.epochs.iter().flat_map(|epoch| paces(epoch, cell.number()));
         median(&paces.collect::<Vec<_>>()).expect("every tree is timed")
@@ -75,13 +75,13 @@ impl<'a> Attribution<'a> {
         self.speedup(&part(factor))
     }
 
-    /// The smallest and the largest gain of `factor` over all `ORDERS`. They differ if factors interact.
+    /// The smallest and the largest gain of `factor` over all `ORDERS`.
     pub fn range(&self, factor: Factor) -> [f64; 2] {
         let orders = parts_by_order(factor).map(|order| self.speedup(&order).estimate);
         [orders.iter().copied().fold(f64::INFINITY, f64::min), orders.iter().copied().fold(0.0, f64::max)]
     }
 
-    /// Speed of the exact SAH plane / speed of the report's plane, both with leaf limit 8 and plane intervals.
+    /// Speedup of the exact SAH plane over the report's plane, with leaf limit 8 and plane intervals.
     pub fn plane_alone(&self) -> Estimate {
         self.speedup(&gain(Treatment([0, 1, 1]), Treatment([5, 1, 1])))
     }
@@ -97,14 +97,15 @@ pub fn gain(from: Treatment, to: Treatment) -> Weights {
     weights
 }
 
-/// The weights of the Shapley value of `factor`: its gain, averaged over all `ORDERS`. The values of the three factors
-/// add up to the whole gain (Shapley, "A value for n-person games", 1953).
+/// The weights of the Shapley value of `factor`: its gain, averaged over all `ORDERS`.
+///
+/// # References
+/// Shapley: A value for n-person games. In: Contributions to the Theory of Games II, 1953.
 fn part(factor: Factor) -> Weights {
     let gains = parts_by_order(factor);
     std::array::from_fn(|cell| gains.iter().map(|gain| gain[cell] / ORDERS.len() as f64).sum())
 }
 
-/// The weights of the gain of `factor`, for each of the `ORDERS`.
 fn parts_by_order(factor: Factor) -> [Weights; 6] {
     ORDERS.map(|order| {
         let before = order.into_iter().take_while(|&other| other != factor as usize);
@@ -116,5 +117,5 @@ fn parts_by_order(factor: Factor) -> [Weights; 6] {
     })
 }
 
-/// All orders in which the three factors can be changed, one by one, from the report's tree to the SAH tree.
+/// All orders in which the three factors change from the report's tree to the SAH tree.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];

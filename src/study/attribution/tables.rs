@@ -30,14 +30,14 @@ fn figure(results: &[&Attribution]) -> Figure {
         let parts = Factor::ALL.map(|factor| r.part(factor).estimate);
         (r.first().scene_title(), Bar::Product(parts.into(), r.whole()))
     };
-    let told: Vec<String> = results.iter().map(|r| split(r).sentence).collect();
+    let sentences: Vec<String> = results.iter().map(|r| split(r).sentence).collect();
     Figure {
         id: "attribution".into(),
         caption: "Speedup of the SAH tree over the report's tree, as a product of factors. The axis is logarithmic: \
                   lengths add up to the whole. Factors below 1 extend to the left. The line below a bar is the 95 % \
                   interval of the whole."
             .into(),
-        alt: format!("Stacked bar chart. {}", told.join(" ")),
+        alt: format!("Stacked bar chart. {}", sentences.join(" ")),
         art: Art::Chart(Chart::Bars(Bars::of_products(
             "speedup over the report's tree",
             Factor::ALL.map(|factor| factor.name().to_owned()).into(),
@@ -47,7 +47,6 @@ fn figure(results: &[&Attribution]) -> Figure {
     }
 }
 
-/// One row per scene: the speedup and its factors.
 fn headlines(results: &[&Attribution]) -> Table {
     let table = Table::of(
         "Speedup of the SAH tree and its factors",
@@ -67,10 +66,9 @@ fn headlines(results: &[&Attribution]) -> Table {
                 which clips the ray interval at each split plane. Intervals are 95 % prediction intervals for a rerun.";
     let noise = results.first().and_then(|r| r.noise.log()).unwrap_or(0.0);
     let noise = format!("A/A noise of all scenes: a factor of {:.3}.", libm::exp(noise));
-    table.noted(vec![note.into(), noise]).explained()
+    table.noted(vec![note.into(), noise]).with_interval_note()
 }
 
-/// One row per tree of each scene.
 pub fn trees(results: &[Attribution]) -> Table {
     let is_sampled = |r: &Attribution| r.epochs[0].common_rays(&r.first().workload) < r.first().workload_rays;
     let of_scene = |r| Treatment::all().map(move |cell| (r, cell));
@@ -91,5 +89,7 @@ pub fn trees(results: &[Attribution]) -> Table {
     let shape = ["references_per_triangle", "sah_cost", "depth", "bytes", "build_ns"];
     let trees: Vec<&Measurement> = results.iter().flat_map(|r| &r.trees).collect();
     push_columns(&mut table, &[&names[..], &shape].concat(), &trees);
-    table.noted(["speedup: over the report's tree, the first row. ~: timed on a subset of the rays."]).explained()
+    table
+        .noted(["speedup: over the report's tree, the first row. ~: timed on a subset of the rays."])
+        .with_interval_note()
 }

@@ -11,7 +11,7 @@ use crate::study::case::tests::example as case;
 use crate::study::dataset::tests::dataset;
 use crate::study::epoch::{Epoch, RayCounts, tests};
 
-/// The speedup by each factor, and the additional speedup if the SAH plane and the SAH stop rule are combined.
+/// Speedups by factor. `TOGETHER` is the additional speedup of the SAH plane combined with the SAH stop rule.
 const STOP: f64 = 8.0;
 const PLANE: f64 = 1.5;
 const TRAVERSAL: f64 = 1.25;
@@ -24,7 +24,7 @@ fn factor(cell: Treatment) -> f64 {
     gains.into_iter().filter(|(has, _)| *has).map(|(_, gain)| gain).product()
 }
 
-/// `epochs` epochs of the stand-in of a scene. Each tree's time varies by up to `noise`, each round's by up to a third.
+/// Times vary by up to `noise` between trees, and by up to a third between rounds.
 fn measured(scene: &str, epochs: usize, noise: f64) -> Vec<Measured> {
     let mut random = RandomOrder::new(3);
     let cells: Vec<Treatment> = Treatment::all().chain(TWINS).collect();
@@ -53,7 +53,6 @@ fn measured(scene: &str, epochs: usize, noise: f64) -> Vec<Measured> {
     (0..epochs).map(&mut of).collect()
 }
 
-/// The same epochs, of a real mesh.
 fn real(measured: Vec<Measured>) -> impl Iterator<Item = Measured> {
     measured.into_iter().map(|mut own| {
         own.case.scene.stand_in = false;
@@ -66,7 +65,6 @@ fn report(measured: Vec<Measured>) -> Report {
     super::report(&dataset(measured), &STUDY.defaults())
 }
 
-/// The result of `of` for the only scene.
 fn of_one<T>(measured: Vec<Measured>, of: impl Fn(&Attribution) -> T) -> T {
     let dataset = dataset(measured);
     let results = results(&dataset);

@@ -5,11 +5,10 @@ use crate::report::{Cell, Format, Table};
 use crate::request::BRUTE_FORCE;
 use crate::study::measurement::{COLUMNS, Measurement, MeasurementColumn, push_columns};
 
-/// Adds the columns of builds, memory, tree shape, counts and checks to a table with one row per structure in
-/// `structures`.
+/// `table` has one row per structure in `structures`.
 pub fn add_columns(table: &mut Table, all: &[Measurement], structures: &[String]) {
     let own: [MeasurementColumn; 12] = [
-        // 0 means unknown: a runner may report no build time, and some structures report no size.
+        // 0 means unknown: runners may report no build time, and some structures report no size.
         ("build", |r| known(r.build_ns as usize).map(|ns| Cell::duration(ns as f64)).into()),
         ("peak", |r| r.build_peak_bytes.map(Cell::bytes).into()),
         ("memory", |r| known(r.shape.bytes).map(Cell::bytes).into()),
@@ -37,8 +36,7 @@ fn known(n: usize) -> Option<usize> {
     Some(n).filter(|&n| n > 0)
 }
 
-/// The number of rays for which build and tracing together take as long as with the fastest builder (brute force
-/// excluded). `None` if there is no such number, if a time is unknown, or if `own` is the fastest builder.
+/// The number of rays for which build and tracing take as long as with the fastest builder. Brute force is excluded.
 pub fn pays_off_after(all: &[Measurement], own: &Measurement) -> Option<f64> {
     let is_rival = |r: &&Measurement| {
         let same = r.scene == own.scene && r.workload == own.workload;
@@ -51,7 +49,6 @@ pub fn pays_off_after(all: &[Measurement], own: &Measurement) -> Option<f64> {
     (own.build_ns > 0 && dearer > 0.0 && saved > 0.0).then(|| dearer / saved)
 }
 
-/// The meaning of the columns.
 pub fn legend(first: &str) -> Vec<String> {
     vec![
         format!(

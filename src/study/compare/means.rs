@@ -1,32 +1,27 @@
 //! Means over scenes.
 
 use super::Reference;
-use super::table::control;
+use super::table::aa_noise_note;
 use crate::measure::Estimate;
 use crate::report::number::plural;
 use crate::report::words::{distinct, each_once, listed};
 use crate::report::{Cell, Table, Tone};
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// Mean speeds over all scenes, one row per structure. The first columns are relative to the first of the `references`,
-/// one column per workload. Then each reference has one column for all workloads.
-///
-/// A mean is over the cells (scene and workload) in which structure and reference have a time. If a structure has no
-/// time in a cell of the reference, its mean gets a note and is never marked as the best.
+/// A cell is a scene and a workload. A mean is over the cells in which structure and reference have a time. A mean that
+/// lacks a cell of the reference is never marked as the best.
 pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let structures = distinct(all.iter().map(|r| &r.label));
     let noise = trace_noise(all);
 
-    // Makes one column of the table, with one entry per structure.
     let column = |reference: &Reference, workload: Option<&str>| -> Vec<Cell> {
-        let asked = |r: &&Measurement| workload.is_none_or(|w| r.workload == w);
-        // Count the cells in which the reference has a time.
+        let is_of_workload = |r: &&Measurement| workload.is_none_or(|w| r.workload == w);
         let has_rival = |r: &&Measurement| reference.rival(all, r).is_some();
-        let related = all.iter().filter(asked).filter(has_rival);
+        let related = all.iter().filter(is_of_workload).filter(has_rival);
         let cases = each_once(related.map(|r| (&r.scene, &r.workload))).len();
         let of = |label: &String| {
-            let pairs = reference.pairs(all, all.iter().filter(asked).filter(|r| r.label == *label));
+            let pairs = reference.pairs(all, all.iter().filter(is_of_workload).filter(|r| r.label == *label));
             (Reference::ratio(&pairs, &noise), pairs.len())
         };
         let rows: Vec<_> = structures.iter().map(of).collect();
@@ -81,11 +76,10 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
             .into()
     }));
     notes.extend(uneven(all));
-    notes.extend(control(all));
-    table.noted(notes).without_empty_columns().explained()
+    notes.extend(aa_noise_note(all));
+    table.noted(notes).without_empty_columns().with_interval_note()
 }
 
-/// The note if scenes have different numbers of epochs.
 fn uneven(all: &[Measurement]) -> Option<String> {
     let epochs = || all.iter().filter(|r| r.mrays_per_s.is_some()).map(|r| r.epochs);
     let (least, most) = (epochs().min()?, epochs().max()?);

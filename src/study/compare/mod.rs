@@ -26,12 +26,11 @@ use rank::Ranking;
 pub use reference::Reference;
 use table::refusals;
 
-/// The arguments of `study all`: every structure, and some of them also with packets or with another triangle test.
+/// The arguments of `study all`.
 const FULL: &str = "-s all -s sah-hybrid:batch=packets -s median-kd:test=moller-trumbore -s sah-kd:test=moller-trumbore \
     -s sah-kd-wide:test=moller-trumbore -s sah-kd-tight:test=moller-trumbore -s sah-hybrid:test=moller-trumbore \
     -s sah-bvh:test=moller-trumbore -s obvhs-bvh2:test=exact -s obvhs-cwbvh:test=exact --epochs 4 --runs 1 --budget 4";
 
-/// The study.
 pub const STUDY: Study = Study {
     name: NAME,
     question: "Benchmark structures with checked hits",
@@ -59,27 +58,26 @@ fn report(dataset: &Dataset, matches: &ArgMatches) -> Report {
     }
 }
 
-/// The failures of the dataset. Most have no sentence, because the tables show them. The remaining sentences give each
-/// reason of a refusal once, and one failure by wrong hits per structure without a known defect.
+/// Most failures have no sentence, because the tables show them. Each reason of a refusal has one sentence.
 fn failures(dataset: &Dataset) -> Vec<Failure> {
-    let (mut failures, mut told) = (dataset.failures(), vec![]);
+    let (mut failures, mut reported) = (dataset.failures(), vec![]);
     let scenes = dataset.scenes();
     let refused: Vec<_> = scenes.iter().flat_map(section::refused).collect();
     let mut reasons = refusals(&refused).into_iter();
     for own in &mut failures {
         if own.refused && !refused.is_empty() {
-            // There are at least as many refused structures as reasons, so all reasons are printed.
+            // There are at least as many refused structures as reasons, so no reason is missing.
             own.sentence = reasons.next().unwrap_or_default();
-        } else if !own.wrong || known_defect(&own.structure).is_some() || told.contains(&own.structure) {
+        } else if !own.wrong || known_defect(&own.structure).is_some() || reported.contains(&own.structure) {
             own.sentence.clear();
         } else {
-            told.push(own.structure.clone());
+            reported.push(own.structure.clone());
         }
     }
     failures
 }
 
-/// Conditions that disturbed the run. If several warnings differ only in their numbers, the first one is kept.
+/// Keeps the first of several warnings that differ only in numbers.
 fn warnings(dataset: &Dataset) -> Vec<String> {
     let all = dataset.scenes().into_iter().flat_map(|scene| scene_warnings(&scene, &dataset.provenance));
     let words = |warning: &str| warning.replace(|c: char| c.is_ascii_digit() || c == '.', "");

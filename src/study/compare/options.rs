@@ -10,7 +10,7 @@ use crate::registry::{Registry, is_named};
 use crate::report::words::each_once_by;
 use crate::request::{
     BRUTE_FORCE, Limit, MEASURING, Measuring, OUTPUT, RAYS, RUNNER_LIMIT, RaySource, STRUCTURES, SceneRequest, Scenes,
-    Seconds, StructureRequest, Structures, ViewArgs, WORKLOADS, WorkloadRequest, each_kind, is_obvhs, left_out,
+    Seconds, StructureRequest, Structures, ViewArgs, WORKLOADS, WorkloadRequest, brute_force_note, each_kind, is_obvhs,
     replayed, runners, scene_files, structures_at, with_twin,
 };
 use crate::scene::{Scene, WorkloadKind};
@@ -68,26 +68,26 @@ pub struct CompareArgs {
     pub wide: bool,
 }
 
-/// Limits of a quick run: epochs, rays per workload, time of all epochs of a scene, time of the samples of one epoch,
-/// and triangle tests and time of all checks. Times and tests are totals over all structures.
+/// Limits of a quick run. Times and tests are totals over all structures.
 const QUICK_EPOCHS: u16 = 3;
 const QUICK_RAYS: usize = 1 << 14;
+/// Time of all epochs of a scene.
 const QUICK: Duration = Duration::from_secs(4);
+/// Time of the samples of one epoch.
 const QUICK_SAMPLES_NS: u64 = 250_000_000;
 const QUICK_CHECKS: usize = 1 << 28;
 const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 
-/// An additional structure of the default selection. It traces slices of rays in packets.
+/// An additional structure of the default selection.
 const PACKETS: &str = "sah-hybrid:batch=packets";
 
-/// The reference structure of a gate. Changes to this crate or to a user's crate do not affect its code.
+/// The reference structure of a gate. Its code is independent of this crate and of a user's crate.
 const GATE_REFERENCE: &str = "obvhs-bvh2";
 
-/// The value of `-s` that omits all structures of the suite, so only runners are measured.
+/// The value of `-s` that omits all structures except runners.
 const NONE: &str = "none";
 
 impl CompareArgs {
-    /// The structures to measure, including the reference.
     fn chosen(&self, registry: &Registry) -> anyhow::Result<Vec<StructureRequest>> {
         let is_none = matches!(&self.structures.structure[..], [word] if word == NONE) && !self.runner.is_empty();
         let named_alone = is_none || self.only.is_some();
@@ -115,7 +115,8 @@ impl CompareArgs {
                 structures.insert(0, one(name).map_err(advice)?);
             }
             let is_asked = |own: &StructureRequest| {
-                is_named(&own.spec, name) || self.reference.as_ref().is_some_and(|asked| is_named(&own.spec, asked))
+                is_named(&own.spec, name)
+                    || self.reference.as_ref().is_some_and(|reference| is_named(&own.spec, reference))
             };
             if let Some(other) = structures.iter().find(|own| own.runner.is_some() && !is_asked(own)) {
                 anyhow::bail!("--only {name} measures nothing else: omit the runner {}", other.spec);
@@ -129,14 +130,12 @@ impl CompareArgs {
         Ok(each_once_by(structures, |one, other| one.spec == other.spec))
     }
 
-    /// The structures that the options name, including the reference.
     fn named(&self) -> Structures {
         let mut named = self.structures.clone();
         named.structure.extend(self.reference.iter().chain(&self.only).cloned());
         named
     }
 
-    /// The scenes with their cameras, and the rays.
     fn scenes(&self, registry: &Registry) -> anyhow::Result<(Vec<(OsString, Scene)>, WorkloadRequest)> {
         let quick = self.quick.then_some(QUICK_RAYS);
         if let Some((scene, rays)) = replayed(registry, &self.rays, &self.scenes.scenes, &self.workload, quick)? {
@@ -150,7 +149,6 @@ impl CompareArgs {
         Ok((scenes.collect::<anyhow::Result<_>>()?, workloads))
     }
 
-    /// Time limit of a build over `triangles` triangles, seconds.
     fn build_limit_s(&self, triangles: usize) -> Option<f64> {
         let millions = triangles as f64 * 1e-6;
         match self.build_limit {
@@ -172,7 +170,6 @@ impl CompareArgs {
         Ok(settings)
     }
 
-    /// Plans the cases scene by scene, small scenes first.
     pub fn plan(&self, registry: &Registry) -> anyhow::Result<Plan> {
         let mut structures = self.chosen(registry)?;
         let named = self.named();
@@ -197,7 +194,7 @@ impl CompareArgs {
             let triangles = scene.mesh.len();
             let mut fitting = structures.clone();
             fitting.retain(|own| !named.leaves_out(own.name(), triangles));
-            notes.extend((fitting.len() < structures.len()).then(|| left_out(scene)));
+            notes.extend((fitting.len() < structures.len()).then(|| brute_force_note(scene)));
             let settings = Settings { build_limit_s: self.build_limit_s(triangles), ..settings.clone() };
             let mut plan = PlannedScene::new(own, &fitting, &workloads, &settings, epochs.into());
             plan.case.scene = SceneRequest::new(word, &self.from, scene);
@@ -271,7 +268,7 @@ mod tests {
 
     #[test]
     fn a_gate_measures_its_structure_and_the_yardstick() {
-        // The twin has the same spec as its structure, so it is removed.
+        // The twin has the spec of its structure and is removed.
         let distinct = |words: &[&str]| each_once_by(specs(&[&["cube"], words].concat()), String::eq);
         assert_eq!(distinct(&["--only", "sah-bvh"]), ["sah-bvh", "obvhs-bvh2"]);
         assert_eq!(distinct(&["-s", "sah-kd", "--budget", "none"]), ["sah-kd", "obvhs-bvh2"]);

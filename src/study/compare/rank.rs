@@ -18,8 +18,8 @@ const PRECISE: [&str; 3] = [Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME]
 /// A scene and a workload.
 type Cell<'a> = (&'a str, &'a str);
 
-/// The structures, fastest first, by their mean speed over the cells in which all of them have a time. A structure that
-/// has a time in at most half of the cells is not ranked, so it does not reduce the common cells.
+/// The structures, fastest first, by mean speed over the cells in which all ranked structures have a time. A structure
+/// with few times is not ranked, because it would reduce these cells.
 pub struct Ranking<'a> {
     all: &'a [Measurement],
     noise: AaNoise,
@@ -36,14 +36,14 @@ struct Ranked<'a> {
     speed: Option<Estimate>,
 }
 
-/// The measurement of `label` in a cell; `None` if it has no time.
+/// `None` if the structure has no time in the cell.
 fn find<'a>(all: &'a [Measurement], label: &str, (scene, workload): Cell) -> Option<&'a Measurement> {
     let is = |own: &&Measurement| own.label == label && own.scene == scene && own.workload == workload;
     all.iter().find(is).filter(|own| own.mrays_per_s.is_some())
 }
 
 impl<'a> Ranking<'a> {
-    /// Ranks the structures in `all` relative to `reference`. `None` if fewer than two structures share a cell.
+    /// `None` if fewer than two structures share a cell.
     pub fn of(all: &'a [Measurement], reference: &'a Reference) -> Option<Self> {
         let related = all.iter().filter(|own| reference.rival(all, own).is_some());
         let mut cells: Vec<Cell> = each_once(related.map(|own| (own.scene.as_str(), own.workload.as_str())));
@@ -67,8 +67,6 @@ impl<'a> Ranking<'a> {
         Some(Self { all, noise, reference, cells, ranked })
     }
 
-    /// The fastest structure with a `PRECISE` test, the fastest in single precision, the cost of a precise test, the
-    /// speed of each structure that the user brings, and the name of the fastest structure.
     pub fn findings(&self) -> Vec<Finding> {
         let is_precise = |row: &&Ranked| PRECISE.contains(&row.example.triangle_test.as_str());
         let (precise, single): (Vec<&Ranked>, Vec<&Ranked>) = self.ranked.iter().partition(is_precise);
@@ -85,12 +83,12 @@ impl<'a> Ranking<'a> {
         let mut found: Vec<Finding> = firsts.map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
         found.extend(self.cost(&precise, &single).map(Finding::detail));
         found.extend(self.ranked.iter().filter(|row| !errs(row)).filter_map(|row| self.speed_finding(row)));
-        // The page names the fastest structure with a precise test. Without one, the fastest in single precision.
+        // The page names the fastest structure with a precise test, or else the fastest in single precision.
         found.extend(fastest.into_iter().next());
         found
     }
 
-    /// The speed of a structure that the user brings; `None` for all other structures and for the reference.
+    /// `None` for built-in structures and for the reference.
     fn speed_finding(&self, row: &Ranked) -> Option<Finding> {
         let value = row.speed.filter(|value| {
             *value != Estimate::exact(1.0) && is_external(&row.example.structure, &row.example.triangle_test)
@@ -106,8 +104,7 @@ impl<'a> Ranking<'a> {
         speed(self.cells.iter().map(pair).collect::<Option<Vec<_>>>()?, &self.noise)
     }
 
-    /// Two findings about the first row, which is the fastest: a sentence with its speed, and its label for the page.
-    /// The findings also name the structures that are not distinguishable from the fastest.
+    /// Returns a sentence about the fastest structure, and its label for the page.
     fn first(&self, key: &str, words: &str, rows: &[&Ranked]) -> Option<(Finding, Finding)> {
         let (first, others) = rows.split_first()?;
         let value = first.speed?;
@@ -130,7 +127,7 @@ impl<'a> Ranking<'a> {
             }
         };
         let (reference, times) = (self.reference.words(), interval(value));
-        let told = match () {
+        let advantage = match () {
             () if value == Estimate::exact(1.0) => "it is itself the reference".to_owned(),
             () if value.holds(1.0) => {
                 format!("it is not distinguishable from {reference}: {times} times as many rays per second")
@@ -139,13 +136,12 @@ impl<'a> Ranking<'a> {
         };
         let (ranked, over) = (plural(rows.len(), "structure"), plural(self.cells.len(), "common cell"));
         let sentence = format!(
-            "Of {ranked} {words}, {label} has the highest mean speed over {over} (scene and workload): {told}{level}."
+            "Of {ranked} {words}, {label} has the highest mean speed over {over} (scene and workload): {advantage}{level}."
         );
         Some((Finding::new(key, sentence).with_value(value), Finding::named(FASTEST, names)))
     }
 
-    /// Time with a precise triangle test / time in single precision, for structures that differ only in the triangle
-    /// test. The finding states the smallest and the largest ratio.
+    /// Time with a precise test / time in single precision, for structures that differ only in the triangle test.
     fn cost(&self, precise: &[&Ranked<'a>], single: &[&Ranked<'a>]) -> Option<Finding> {
         let kind = |row: &Ranked<'a>| (&row.example.structure, &row.example.config);
         let cost = |right: &&Ranked<'a>| {
@@ -155,15 +151,15 @@ impl<'a> Ranking<'a> {
         let plain = precise.iter().filter(|row| !row.label.contains(':'));
         let mut costs: Vec<(&Measurement, Estimate)> = plain.filter_map(cost).collect();
         costs.sort_by(|a, b| a.1.estimate.total_cmp(&b.1.estimate));
-        let told = |(right, cost): &(&Measurement, Estimate)| format!("{} ({})", interval(*cost), right.structure);
-        let told = match &costs[..] {
+        let cost_of = |(right, cost): &(&Measurement, Estimate)| format!("{} ({})", interval(*cost), right.structure);
+        let range = match &costs[..] {
             [] => return None,
-            [one] => told(one),
-            [least, .., most] => format!("{} to {}", told(least), told(most)),
+            [one] => cost_of(one),
+            [least, .., most] => format!("{} to {}", cost_of(least), cost_of(most)),
         };
         let test = &costs[0].0.triangle_test;
         let sentence =
-            format!("Structures take {told} times as long with the {test} triangle test as in single precision.");
+            format!("Structures take {range} times as long with the {test} triangle test as in single precision.");
         Some(Finding::new("cost", sentence))
     }
 }
@@ -193,7 +189,7 @@ mod tests {
         for scene in ["a", "b", "c"] {
             all.extend(times.map(|(label, ns)| record(scene, label, ns)));
         }
-        // One structure has no time in one of three cells; another has a time in only one cell.
+        // One structure has no time in one of three cells. Another structure has a time in only one cell.
         all[0].mrays_per_s = None;
         all.push(record("a", "rare", 1.0));
         let reference = Reference::of(&all, None).pop().unwrap();
@@ -205,23 +201,26 @@ mod tests {
         assert!((speed.estimate - 2.0).abs() < 1e-9, "{speed:?}");
 
         let findings = ranking.findings();
-        let told: Vec<&str> = findings.iter().map(|finding| finding.sentence.as_str()).collect();
+        let sentences: Vec<&str> = findings.iter().map(|finding| finding.sentence.as_str()).collect();
         let first = "Of 2 structures with exact or f64 triangle tests and no wrong hits, fast has the highest mean \
                      speed over 2 common cells";
-        assert!(told[0].starts_with(first), "{told:?}");
-        assert!(told[0].contains("traces 2.00") && !told[0].contains("distinguishable"), "{told:?}");
-        assert!(told[1].starts_with(&format!("Of 3 structures in single precision, {} has", single[0])), "{told:?}");
+        assert!(sentences[0].starts_with(first), "{sentences:?}");
+        assert!(sentences[0].contains("traces 2.00") && !sentences[0].contains("distinguishable"), "{sentences:?}");
+        assert!(
+            sentences[1].starts_with(&format!("Of 3 structures in single precision, {} has", single[0])),
+            "{sentences:?}"
+        );
         // The two structures of this ratio have the same keys: packets are not compared with single rays.
-        assert!(told[2].contains("exact") && told[2].contains("1.25"), "{told:?}");
+        assert!(sentences[2].contains("exact") && sentences[2].contains("1.25"), "{sentences:?}");
         assert_eq!(findings.last().and_then(|finding| finding.name.as_deref()), Some("fast"));
-        // A structure with a wrong hit in any cell is excluded from the structures without wrong hits.
+        // A wrong hit in one cell excludes the structure.
         let mut erring = all.clone();
         erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
             (r.mrays_per_s, r.wrong_hits, r.checked_rays) = (None, 2, 9);
         });
         erring.push(record("b", "rare", 1.0));
-        let told = Ranking::of(&erring, &reference).unwrap().findings().remove(0).sentence;
-        assert!(!told.contains("fast has the highest"), "{told}");
+        let sentence = Ranking::of(&erring, &reference).unwrap().findings().remove(0).sentence;
+        assert!(!sentence.contains("fast has the highest"), "{sentence}");
         assert!(Ranking::of(&all[..1], &reference).is_none());
     }
 }

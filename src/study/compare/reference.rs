@@ -5,9 +5,9 @@ use crate::registry::is_named;
 use crate::request::REPORT_TREE;
 use crate::study::measurement::{Measurement, is_native_obvhs};
 
-/// The speed of the first of each pair relative to the second: the geometric mean over the pairs, with its
-/// [interval](mod@crate::measure::interval). The mean uses all epochs of each pair, the interval only the epochs that
-/// all pairs have. `None` if a measurement has no time, or the samples of a pair are not from the same rounds.
+/// The geometric mean of (speed of the first structure / speed of the second) over the pairs. The mean uses all epochs
+/// of each pair. The interval uses only the epochs that all pairs have. `None` if a measurement has no time, or the
+/// samples of a pair are not from the same rounds.
 pub fn speed<'a>(
     pairs: impl IntoIterator<Item = (&'a Measurement, &'a Measurement)>,
     noise: &AaNoise,
@@ -24,15 +24,13 @@ pub fn speed<'a>(
 /// The reference of a column of ratios.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reference {
-    /// The structure of this label.
     Structure(String),
     /// The fastest obvhs BVH on the same scene and rays.
     Obvhs,
 }
 
 impl Reference {
-    /// The structure `named`. If it is `None`: the report's tree, if measured, and obvhs, if measured. If neither is
-    /// measured: the first structure.
+    /// By default, returns the report's tree and obvhs if measured, or else the first structure.
     pub fn of(all: &[Measurement], named: Option<&str>) -> Vec<Self> {
         if let Some(spec) = named {
             let known = all.iter().map(|own| own.label.as_str()).find(|label| is_named(label, spec));
@@ -47,7 +45,6 @@ impl Reference {
         found
     }
 
-    /// The name in columns: `median`, `obvhs` or a label.
     pub fn name(&self) -> &str {
         match self {
             Self::Structure(label) if label == REPORT_TREE => "median",
@@ -56,7 +53,6 @@ impl Reference {
         }
     }
 
-    /// The name in sentences.
     pub fn words(&self) -> String {
         match self {
             Self::Structure(label) if label == REPORT_TREE => format!("the report's tree, {label}"),
@@ -65,7 +61,7 @@ impl Reference {
         }
     }
 
-    /// The measurement of the reference on the scene and workload of `of`. `None` if it has no time.
+    /// The measurement of the reference on the scene and workload of `of`.
     pub fn rival<'a>(&self, all: &'a [Measurement], of: &Measurement) -> Option<&'a Measurement> {
         let is = |own: &&Measurement| match self {
             Self::Structure(label) => own.label == *label,
@@ -86,7 +82,7 @@ impl Reference {
         timed.filter_map(|own| Some((own, self.rival(all, own)?))).collect()
     }
 
-    /// Like `speed`, but exactly 1 if every pair is a structure and itself. `noise` is the A/A noise of the run.
+    /// Like `speed`, but exactly 1 if every structure is paired with itself.
     pub fn ratio(pairs: &[(&Measurement, &Measurement)], noise: &AaNoise) -> Option<Estimate> {
         let is_itself = !pairs.is_empty() && pairs.iter().all(|(own, other)| own.label == other.label);
         if is_itself { Some(Estimate::exact(1.0)) } else { speed(pairs.iter().copied(), noise) }

@@ -1,4 +1,4 @@
-//! The report of a comparison: findings, then tables and figures.
+//! Writes the findings, tables and figures of a comparison.
 
 use super::means::mean_table;
 use super::table::{legend, nothing_measured, refusals, scene_table};
@@ -14,7 +14,6 @@ use crate::study::kendall::{kendall, mean_of_scenes};
 use crate::study::measurement::{Measurement, of_scene, trace_noise};
 use crate::study::{Dataset, SceneEpochs};
 
-/// The number of checked rays and of wrong hits, and the structures with wrong hits.
 pub fn checked(all: &[Measurement]) -> Option<Finding> {
     let sums = |is: &dyn Fn(&&Measurement) -> bool| {
         let own = all.iter().filter(is).map(|r| [r.wrong_hits, r.checked_rays]);
@@ -38,8 +37,8 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
     (sums[1] > 0).then(|| Finding::new("checked", sentence))
 }
 
-/// Kendall's tau of SAH cost and time, over pairs of structures of different families. The mean is over the built-in
-/// scenes, because the claim is about them. `None` if a built-in scene is missing.
+/// Kendall's tau of SAH cost and time per ray, over pairs of structures of different families. The claim covers only
+/// the built-in scenes.
 pub fn tau(all: &[Measurement]) -> Option<Finding> {
     if !BUILTIN.iter().all(|builtin| all.iter().any(|r| r.scene == builtin.name)) {
         return None;
@@ -56,7 +55,7 @@ pub fn tau(all: &[Measurement]) -> Option<Finding> {
     Some(Finding::number("tau", mean_of_scenes(taus)?))
 }
 
-/// The family of a structure. Structures of one family have the same type of cells and nodes.
+/// Structures of one family have cells and nodes of the same type.
 fn family(structure: &str) -> &str {
     match structure {
         REPORT_TREE | SAH_TREE => "binary kd-tree",
@@ -65,15 +64,13 @@ fn family(structure: &str) -> &str {
     }
 }
 
-/// The refused structures, without twins.
 pub fn refused<'a>(scene: &SceneEpochs<'a>) -> Vec<&'a Structure> {
     scene.epochs[0].structures.iter().filter(|own| own.refused.is_some() && !own.is_twin()).collect()
 }
 
-/// The number of scenes with figures that a page shows unfolded. The figures of all other scenes are folded.
-const OPEN: usize = 3;
+/// The number of scenes whose figures a page shows unfolded.
+const UNFOLDED_SCENES: usize = 3;
 
-/// All blocks of the report. The terminal prints the tables of scenes, with all columns if `wide`, then the means.
 pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Block> {
     let shown = if wide { references } else { &references[references.len().saturating_sub(1)..] };
     let (mut blocks, mut scenes, mut all_refused) = (vec![], vec![], vec![]);
@@ -97,11 +94,10 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
     }
     blocks.extend(notes.into_iter().map(Block::Note));
 
-    // The figures of the largest scenes come first.
     scenes.sort_by_key(|scene| std::cmp::Reverse(scene[0].triangles));
     blocks.extend(tradeoff::figure(&scenes).map(Block::figure));
     let mut figures: Vec<Block> = scenes.iter().map(|scene| Block::figure(bars(scene))).collect();
-    let others = figures.split_off(figures.len().min(OPEN));
+    let others = figures.split_off(figures.len().min(UNFOLDED_SCENES));
     blocks.extend(figures);
     if !others.is_empty() {
         blocks.push(Block::Fold(format!("Figures of the other {} scenes", others.len()), others));
@@ -114,13 +110,12 @@ pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Bl
     blocks
 }
 
-/// Speed relative to the report's tree (without it: to brute force or the first structure), by workload.
 fn bars(all: &[Measurement]) -> Figure {
     let noise = trace_noise(all);
     let mut labels = distinct(all.iter().map(|r| &r.label));
     let units = [REPORT_TREE, BRUTE_FORCE].map(String::from);
     let unit = units.into_iter().find(|unit| labels.contains(unit)).unwrap_or_else(|| labels[0].clone());
-    // Omit brute force: it is so slow that its bar would hide the differences between all other structures.
+    // Brute force is so slow that its bar would hide the differences between all other structures.
     labels.retain(|label| unit == BRUTE_FORCE || label != BRUTE_FORCE);
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let reference = Reference::Structure(unit.clone());

@@ -1,4 +1,4 @@
-//! The table of one scene, and its notes.
+//! The table of one scene and its notes.
 
 use super::details;
 use super::reference::Reference;
@@ -11,10 +11,9 @@ use crate::study::epoch::Structure;
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{Exact, TriangleTest};
 
-/// The key of structures that trace many rays per call.
+/// Structures with this key trace many rays per call.
 const PACKETS: &str = "batch=packets";
 
-/// The meaning of columns and marks, once for all tables.
 pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
     let column = |own: &Reference| format!("x {}: speed against {}", own.name(), own.words());
     let mut ratios = references.iter().map(column).collect::<Vec<_>>().join("; ");
@@ -42,7 +41,6 @@ pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
     legend
 }
 
-/// The reasons why structures are refused, each once for all tables.
 pub fn refusals(refused: &[&Structure]) -> Vec<String> {
     let reason = |reason: &String| {
         let of = refused.iter().filter(|own| own.refused.as_ref() == Some(reason)).map(|own| &own.label);
@@ -51,14 +49,11 @@ pub fn refusals(refused: &[&Structure]) -> Vec<String> {
     distinct(refused.iter().filter_map(|own| own.refused.as_ref())).iter().map(reason).collect()
 }
 
-/// The table of a scene whose structures are all refused.
 pub fn nothing_measured(scene: &str, refused: &[&Structure]) -> Table {
     let title = format!("{scene}: no structure could be measured");
     Table::of(title, refused, &[("structure", &|own| (&own.label).into())]).of_one_scene()
 }
 
-/// The table of one scene. Each structure has a row, and refused structures are last. Each of the `references` has a
-/// column of ratios. If `wide`, the table has all columns.
 pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&Structure], wide: bool) -> Table {
     let Some(first) = all.first() else { return Table::default() };
     let degenerate = match first.degenerate {
@@ -80,7 +75,7 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     let noise = trace_noise(all);
     for reference in references {
         let mean = |label: &String| {
-            // There is no mean if a workload has no time. Workloads that the structure declines do not count.
+            // A structure has no mean if a workload has no time. Declined workloads do not count.
             let own: Vec<&Measurement> = all.iter().filter(|r| r.label == *label).collect();
             let timed: Vec<&Measurement> = own.iter().copied().filter(|r| r.declined.is_none()).collect();
             let pairs = reference.pairs(all, timed.iter().copied());
@@ -107,17 +102,16 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     let mut notes: Vec<String> = all.iter().filter_map(declined).collect();
     notes.extend(defects(all));
     notes.extend(unfit_tests(all));
-    notes.extend(control(all));
-    table.noted(notes).without_empty_columns().of_one_scene().explained()
+    notes.extend(aa_noise_note(all));
+    table.noted(notes).without_empty_columns().of_one_scene().with_interval_note()
 }
 
-/// A footnote about the A/A noise, if a structure has a twin.
-pub(super) fn control(all: &[Measurement]) -> Option<String> {
+pub(super) fn aa_noise_note(all: &[Measurement]) -> Option<String> {
     let (twins, label) = (trace_noise(all), &all.iter().find(|r| r.twin_samples_ns.is_some())?.label);
     let noise = libm::exp(twins.log()?) - 1.0;
     let holding = twins.containing_one();
     let holding = holding.map_or(String::new(), |(n, all)| format!("; {n} of {all} intervals of the ratio contain 1"));
-    // 0 does not prove that there is no noise: the variation of the epochs may hide it.
+    // An estimate of 0 does not prove a lack of noise. The variation between epochs may hide the noise.
     let noise = match noise {
         0.0 => "none beyond the variation of the epochs".into(),
         _ => format!("{}%", figures(noise * 100.0)),
@@ -125,7 +119,6 @@ pub(super) fn control(all: &[Measurement]) -> Option<String> {
     Some(format!("A/A noise ({label} built twice and compared with itself): {noise}{holding}."))
 }
 
-/// A footnote for each structure with wrong hits from a known defect.
 fn defects(all: &[Measurement]) -> Vec<String> {
     let note = |label: &String| {
         let wrong = || all.iter().filter(|r| r.label == *label && r.is_disqualified());
@@ -139,8 +132,8 @@ fn defects(all: &[Measurement]) -> Vec<String> {
     distinct(all.iter().map(|r| &r.label)).iter().filter_map(note).collect()
 }
 
-/// A footnote for each triangle test whose number of hits differs from the exact one by more than 1 %. The checks do
-/// not show this: they compare a structure with brute force over its own triangle test.
+/// A triangle test can miss hits although all checks pass. The checks compare a structure with brute force over the
+/// same triangle test.
 fn unfit_tests(all: &[Measurement]) -> Vec<String> {
     let exact = |of: &Measurement| {
         let same = |r: &&Measurement| r.workload_hash == of.workload_hash && r.counts.rays == of.counts.rays;

@@ -1,4 +1,4 @@
-//! The figure of speed against memory. Its table also has the build times.
+//! The figure of speed against memory.
 
 use crate::report::plot::{Chart, Point, Scatter};
 use crate::report::words::distinct;
@@ -6,11 +6,10 @@ use crate::report::{Art, Cell, Figure, Table};
 use crate::request::BRUTE_FORCE;
 use crate::study::measurement::Measurement;
 
-/// At least two structures on one workload of one scene, each with its nanoseconds per ray on the same rays.
+/// The structures on one workload of one scene, with nanoseconds per ray.
 type Case<'a> = Vec<(&'a Measurement, f64)>;
 
-/// A chart of the first workload of the first scene; its table has all scenes and workloads. Brute force is left out,
-/// because it is far away from all other structures. `None` if no two structures have a time on the same rays.
+/// Brute force is left out, because its point is far from all other points.
 pub fn figure(scenes: &[Vec<Measurement>]) -> Option<Figure> {
     let cases: Vec<Case> = scenes.iter().flat_map(|all| cases(all)).collect();
     let first = cases.first()?;
@@ -45,7 +44,7 @@ fn cases(all: &[Measurement]) -> Vec<Case<'_>> {
         let is_drawn =
             |r: &&Measurement| r.workload == *workload && r.structure != BRUTE_FORCE && r.mrays_per_s.is_some();
         let drawn = || all.iter().filter(is_drawn);
-        // Compare all structures on the same rays: the rays of the smallest sample.
+        // A structure may be timed on a subset of the rays. All structures are compared on the smallest subset.
         let common = drawn().map(|own| own.rays).min().unwrap_or(0);
         drawn().filter_map(|own| Some((own, own.ns_per_ray_of(common)?))).collect()
     };
@@ -119,7 +118,6 @@ mod tests {
         assert!(drawn.alt.contains("fastest sah-bvh") && drawn.data.rows.len() == 2, "{}", drawn.alt);
         assert!(figure(&[all[..2].to_vec()]).is_none());
 
-        // If a structure is timed on a subset of the rays, all structures are compared on this subset.
         all[1].parts = vec![SubsetSamples { rays: 25, ns: vec![10_000] }];
         all[2] = Measurement { rays: 25, samples_ns: vec![5_000.0], ..all[2].clone() };
         assert_eq!(times(&all), [("sah-kd".into(), 400.0), ("sah-bvh".into(), 200.0)]);

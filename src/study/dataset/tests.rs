@@ -1,4 +1,4 @@
-//! Checks that SCHEMA.md names all exported fields and no others.
+//! Checks that SCHEMA.md names all exported fields and no other fields.
 
 use std::collections::BTreeSet;
 
@@ -13,12 +13,11 @@ use crate::study::epoch::{RayCounts, Rays};
 use crate::study::{Check, Settings, Studies};
 use crate::validate::{ErrorCounts, Kind, Ulps};
 
-/// A dataset with the provenance of this process.
 pub fn dataset(measured: Vec<Measured>) -> Dataset {
     Dataset::new(Provenance::capture(1), measured)
 }
 
-/// Cases and an epoch with all optional fields.
+/// All optional fields are set, because the JSON may omit unset fields.
 fn with_all_fields() -> Dataset {
     let runner = RunnerRequest { command: "x".into(), limit_s: 1.0, config: json!({}) };
     let mut first = Case {
@@ -67,7 +66,7 @@ fn with_all_fields() -> Dataset {
     Dataset { notes: vec!["a note".into()], ..dataset(measured.into()) }
 }
 
-/// The names of all fields, except inside `labels` and `config`, whose keys vary.
+/// Skips the keys of `labels` and `config`, because these keys vary.
 fn fields(value: &Value, names: &mut BTreeSet<String>) {
     match value {
         Value::Object(object) => {
@@ -83,7 +82,7 @@ fn fields(value: &Value, names: &mut BTreeSet<String>) {
     }
 }
 
-/// The names in the first column of all tables in `text` whose first heading is `head`.
+/// The names in the first column of the tables whose first heading is `head`.
 fn documented(text: &str, head: &str) -> BTreeSet<String> {
     let tables = text.split("\n\n").filter(|part| part.starts_with(&format!("| {head} |")));
     let cells = tables.flat_map(|table| table.lines().skip(2)).filter_map(|row| row.split('|').nth(1));

@@ -1,5 +1,6 @@
-//! Computes the changes in time between two runs and classifies them by their intervals. Times are relative to the
-//! times of the reference structures in the same rounds, so runs of different days and machines are comparable.
+//! Computes and classifies the changes in time between two runs.
+//!
+//! Times are divided by the times of the reference structures in the same rounds.
 
 use std::slice::from_ref;
 
@@ -8,7 +9,8 @@ use crate::measure::{AaNoise, Estimate, Rerun, Variance, cut_to_shared_epochs, e
 use crate::report::words::{distinct, each_once};
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// The mean change of each structure, and its change in each cell. A gate may compare the runs up to `looks` times.
+/// Returns the mean change of each structure, then the change in each cell. A gate may compare the runs up to `looks`
+/// times.
 pub(super) fn all(
     old: &[Measurement],
     new: &[Measurement],
@@ -22,7 +24,7 @@ pub(super) fn all(
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
     let mut labels = each_once(pairs.iter().map(|(_, new)| new.label.as_str()));
     labels.retain(|label| !references.iter().any(|one| one == label));
-    // The intervals of structures are corrected for the numbers of structures and looks.
+    // The interval of each structure is corrected for the numbers of structures and looks.
     let looks = looks * labels.len();
     for label in labels {
         let of = |cell: Option<&Measurement>, cells, checked_rays, time| Change {
@@ -41,13 +43,12 @@ pub(super) fn all(
             let time = times.as_ref().and_then(|(old, new)| change(from_ref(old), from_ref(new)));
             cells.push(of(Some(before), usize::from(time.is_some()), after.checked_rays, time));
             checked_rays += after.checked_rays;
-            // A time is missing if the old run has it and the new run lacks it.
             missing |= !before.samples_ns.is_empty() && after.samples_ns.is_empty();
             let (old, new) = times.unzip();
             old_times.extend(old);
             new_times.extend(new);
         }
-        // Leave out a structure without comparable times, for example because it had wrong hits.
+        // A structure may have no comparable times, for example because of wrong hits.
         if old_times.is_empty() && !missing {
             continue;
         }
@@ -59,13 +60,14 @@ pub(super) fn all(
     (structures, cells)
 }
 
-/// The geometric mean of new time / old time over cells. The log times are relative to `references` references.
+/// The geometric mean over cells of new time / old time. `old` and `new` are logarithms of times, by cell, epoch and
+/// round.
 fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], references: usize) -> Option<Estimate> {
     let noises = [&noises[0], &noises[1]].map(|noise| weighted(noise, references, old.len()));
     Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
 }
 
-/// The [`Finding`] of a change in time. `threshold` is the logarithm of the smallest ratio that may be a regression.
+/// `threshold` is the logarithm of the smallest ratio that may be a regression.
 pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding {
     let Some(time) = time.filter(|time| time.interval.is_some()) else { return Finding::Unknown };
     let limit = threshold.map_or(f64::INFINITY, libm::exp);
@@ -79,14 +81,13 @@ pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding
 }
 
 /// The variance that the A/A noise of a run adds to the mean log time over `cells` cells. Each time is relative to the
-/// mean of `references` references. The noise of the cells is independent.
+/// mean of `references` references. The noise of different cells is independent.
 fn weighted(noise: &AaNoise, references: usize, cells: usize) -> Variance {
     let mut weights = vec![-1.0 / references.max(1) as f64; references];
     weights.push(1.0);
     noise.weighted(&weights).times(1.0 / libm::sqrt(cells.max(1) as f64))
 }
 
-/// Labels of the reference structures that both runs time.
 pub(super) fn references(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> {
     let is_timed =
         |(old, new): &&(&Measurement, &Measurement)| !old.samples_ns.is_empty() && !new.samples_ns.is_empty();
@@ -94,9 +95,9 @@ pub(super) fn references(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> 
     distinct(timed.filter(|old| has_reference_role(old)).map(|old| &old.label))
 }
 
-/// ln(time of `own` / geometric mean of the times of the references), by epoch and round. `other` is the same cell of
-/// the other run. The mean includes only references that both runs time in this cell; `None` if there are none, or if
-/// `own` or `other` has no time. If `references` is empty, the result is ln(time per ray).
+/// ln(time of `own` / geometric mean of the times of the references), by epoch and round. `other` is the same cell in
+/// the other run. The mean covers the references that both runs time in this cell. If `references` is empty, the result
+/// is ln(time per ray).
 fn relative(
     own: &Measurement,
     all: &[Measurement],
@@ -112,7 +113,6 @@ fn relative(
     if rivals.is_empty() {
         return references.is_empty().then(|| absolute(own));
     }
-    // ln(time of `own` / time of the reference), for each reference.
     let logs = rivals.iter().map(|rival| rival.speed_against(own)).collect::<Option<Vec<_>>>()?;
     let mut sum = logs.into_iter().reduce(|sum, logs| {
         sum.iter().zip(&logs).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + b).collect()).collect()

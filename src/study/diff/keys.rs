@@ -2,9 +2,8 @@
 
 use serde_json::{Map, Value};
 
-/// Configuration keys that differ: name, old value and new value.
 pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
-    // Ignore the command of a runner and the digests of its files: two builds of a runner are comparable.
+    // Two builds of a runner are comparable, so `build` and `command` do not count.
     let keys = |value: &Value| {
         let mut map = value.as_object().cloned().unwrap_or_default();
         map.retain(|key, _| key != "build" && key != "command");
@@ -13,7 +12,7 @@ pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
     differences(&keys(old), &keys(new))
 }
 
-/// Values that differ: name, old value and new value.
+/// Returns the name, the old value and the new value of each difference.
 pub fn differences(old: &Map<String, Value>, new: &Map<String, Value>) -> Vec<(String, String, String)> {
     let text = |value: Option<&Value>| match value {
         None => "absent".to_owned(),

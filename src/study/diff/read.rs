@@ -1,4 +1,4 @@
-//! Reads one of the compared runs: an export, or a folder of journals.
+//! Reads a run from an export or from a folder of journals.
 
 use std::path::Path;
 
@@ -8,8 +8,7 @@ use crate::escaped::Escaped as _;
 use crate::study::Dataset;
 use crate::study::journal::{CaseFile, JournalError, files, newest};
 
-/// Reads an export, or the newest dataset in a folder of journals. If the folder has cases of `compare`, cases of other
-/// studies are ignored. An error if there are no measurements.
+/// If a folder has cases of `compare`, cases of other studies are ignored.
 pub fn read(path: &Path) -> anyhow::Result<Dataset> {
     let found = if path.is_dir() { of_folder(path)? } else { Some(of_export(path)?) };
     let found = found.filter(|own| !own.measured.is_empty());

@@ -6,12 +6,10 @@ use crate::report::number::{count, figures, plural};
 use crate::report::words::{each_once, listed};
 use crate::report::{Cell, Format, Table, Tone};
 
-/// A table of the structures and a table of their cells.
 pub fn tables(comparison: &Comparison) -> Vec<Table> {
-    [structures(comparison), cells(comparison)].map(Table::explained).into()
+    [structures(comparison), cells(comparison)].map(Table::with_interval_note).into()
 }
 
-/// Warnings to readers of the tables: wrong hits, missing references, different machines or settings.
 pub fn cautions(comparison: &Comparison) -> Vec<String> {
     let wrong = comparison.wrong.iter().map(|wrong| format!("Wrong: {}: {}.", wrong.case, wrong.what));
     let mut cautions: Vec<String> = wrong.collect();
@@ -21,7 +19,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
             .into()
     }));
     cautions.extend(comparison.machines.as_ref().map(|[old, new]| {
-        // A machine is `processor (SIMD level)`.
+        // A machine has the form `processor (SIMD level)`.
         let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
         let two = if cpu(old) == cpu(new) { "Two instruction sets" } else { "Two machines" };
         format!("{two}, {old} and {new}: they, rather than the code, may cause a change.")
@@ -32,7 +30,6 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
     cautions
 }
 
-/// One sentence per structure: whether its hits are right, and how its time has changed. Empty without a threshold.
 pub fn sentences(comparison: &Comparison) -> Vec<String> {
     let Some(threshold) = comparison.threshold_percent else { return vec![] };
     let sentence = |change: &Change| {

@@ -7,7 +7,6 @@ use crate::study::measurement::tests::example;
 
 const EPOCHS: usize = 5;
 
-/// A measurement with three samples per epoch: `ns` times the factor of the epoch, which is close to 1.
 fn record(label: &str, workload: &str, ns: f64) -> Measurement {
     let epoch = |e: usize| 1.0 + 0.002 * (e as f64 - 2.0);
     let samples_ns: Vec<f64> = (0..EPOCHS).flat_map(|e| [ns * epoch(e); 3]).collect();
@@ -18,7 +17,6 @@ fn side(all: Vec<Measurement>) -> Side {
     Side::of(Provenance::capture(1), all, None)
 }
 
-/// A run in which every structure takes `slow` times as long, and `sah-kd` also `sah` times as long.
 fn run(slow: f64, sah: f64) -> Vec<Measurement> {
     let times = [("median-kd", 9e6), ("sah-kd", 2e6 * sah), ("obvhs-bvh2", 2e6), ("obvhs-cwbvh", 1e6)];
     let of = |workload| times.map(|(label, ns)| record(label, workload, ns * slow));
@@ -80,7 +78,7 @@ fn intervals_decide_the_finding() {
     let limit = Some(libm::log(1.05));
     let cases = [
         (interval(1.06, 1.14), limit, Finding::Regression),
-        // Significantly slower, and the estimate exceeds the threshold.
+        // The estimate 1.08 exceeds the threshold, and the interval lies above 1.
         (interval(1.02, 1.14), limit, Finding::Regression),
         (interval(1.01, 1.08), limit, Finding::Inconclusive),
         (interval(0.98, 1.14), limit, Finding::Inconclusive),
@@ -106,7 +104,7 @@ fn changed_hits_are_wrong() {
         ("3 of 100 rays have a wrong hit; in the old run 0 of 100", &|r| r.wrong_hits = 3),
         ("19 of 1000 rays hit; in the old run 20", &|r| r.counts.hits = 19),
         ("some hits have another t or primitive than in the old run", &|r| r.hit_checksum = Some(0)),
-        // Different numbers of counted or timed rays, or an unknown checksum, are not wrong hits.
+        // Different numbers of rays or an unknown checksum are not wrong hits.
         ("", &|r| (r.counts.rays, r.counts.hits) = (500, 9)),
         ("", &|r| (r.rays, r.hit_checksum) = (250, Some(0))),
         ("", &|r| r.hit_checksum = None),
@@ -152,7 +150,7 @@ fn a_structure_is_compared_with_itself_whatever_its_keys_and_its_test() {
     assert_eq!(change_of(&comparison, "sah-kd:leaf=4,test=moller-trumbore").cells, 2);
     assert!(comparison.wrong.is_empty() && comparison.only_old.is_empty(), "another test has other hits");
 
-    // With two structures of one name the counterpart is ambiguous.
+    // With two structures of one name, the counterpart is ambiguous.
     let ours = new.iter().filter(|own| own.structure == "sah-kd");
     let others: Vec<_> = ours.map(|own| Measurement { label: "sah-kd:leaf=2".into(), ..own.clone() }).collect();
     let comparison = compare(&old, &[new, others].concat(), None, 1);
@@ -161,13 +159,13 @@ fn a_structure_is_compared_with_itself_whatever_its_keys_and_its_test() {
 
 #[test]
 fn a_gate_ends_in_a_sentence_a_structure() {
-    for (sah, said) in [
+    for (sah, verdict) in [
         (1.2, "20.0 % slower [20.0, 20.0]: over the limit of 10 %."),
         (1.05, "5.0 % slower [5.0, 5.0]: within the limit of 10 %."),
         (0.8, "20.0 % less time [20.0, 20.0]."),
     ] {
         let found = sentences(&compare(&run(1.0, 1.0), &run(1.0, sah), Some(10.0), 1));
-        assert_eq!(found[1], format!("sah-kd: right on 200 checked rays; {said}"));
+        assert_eq!(found[1], format!("sah-kd: right on 200 checked rays; {verdict}"));
     }
     let mut wrong = run(1.0, 1.0);
     wrong[1].wrong_hits = 3;
@@ -226,13 +224,14 @@ fn the_aa_noise_of_both_runs_widens_the_interval() {
     for (i, by) in [(0, 0.03), (1, -0.03), (4, 0.03), (5, -0.03)] {
         old[i].twin_samples_ns = Some(old[i].samples_ns.iter().map(|ns| twin(ns, by)).collect());
     }
-    // The standard deviation of an A/A ratio is 0.03. A structure relative to the mean of two references has 3/4 of the
-    // variance, and two cells halve it. For two structures judged together, t is 3.495 with four degrees of freedom.
+    // The standard deviation of an A/A ratio is 0.03. The ratio of a structure to two references has 3/4 of the
+    // variance. The mean over two cells halves the variance. For two structures and four degrees of freedom, t is
+    // 3.495.
     let alone = 2.0 * 3.495 * 0.03 * libm::sqrt(0.75 / 2.0);
     assert!(before < 1e-9 && (width(&old) / alone - 1.0).abs() < 1e-3, "{before} {} {alone}", width(&old));
 }
 
-/// `structures` structures and a reference in eight epochs. Their times differ only by noise of 1 %.
+/// The times of all structures differ only by noise of 1 %.
 fn noise(structures: usize, seed: u64) -> Vec<Measurement> {
     let mut random = crate::measure::RandomOrder::new(seed);
     let mut record = |label: &str| {
@@ -254,7 +253,7 @@ fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
         };
         (0..400).filter(alarm).count() as f64 / 4.0
     };
-    // Without correction, each of twelve structures raises an alarm in 5 % of runs: about a quarter of runs fail.
+    // The corrected intervals allow false alarms in 5 % of the comparisons.
     assert!(alarms(1) <= 7.0, "{} %", alarms(1));
     assert!(alarms(10) <= 2.0, "{} %", alarms(10));
     let comparison = compare(&noise(12, 1), &noise(12, 2), Some(5.0), 10);

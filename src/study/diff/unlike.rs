@@ -9,7 +9,6 @@ use crate::request::is_obvhs;
 use crate::study::measurement::Measurement;
 use crate::study::{Case, Dataset};
 
-/// The reason why two runs cannot be compared: a value that differs.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the runs are not comparable: {what} differs ({old} in the old run, {new} in the new): {advice}")]
 pub struct Unlike {
@@ -35,10 +34,8 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
     if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
 }
 
-/// Rejects runs that are not comparable. Runs may differ in code, date and settings, and in keys and triangle tests of
-/// structures that are not references. Without `gate`, the machines may differ if both runs time a common reference.
-/// With `gate`, a common reference and equal numbers of timed rays are required. The error names the first difference
-/// that is not allowed.
+/// Runs may differ in code, date and settings. Structures that are not references may differ in keys and triangle test.
+/// Without `gate`, the machines may differ if both runs time a common reference.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
     let are_timed = |old: &Measurement, new: &Measurement| old.trace_ns.is_some() && new.trace_ns.is_some();
@@ -75,7 +72,6 @@ pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
         }
     }
     if gate && !has_unit {
-        // No reference has a time in both runs in the same cell.
         let [old, new] = [old, new].map(|side| {
             let timed = side.all.iter().filter(|own| has_reference_role(own) && own.trace_ns.is_some());
             let labels = each_once(timed.map(|own| own.label.as_str()));
@@ -93,8 +89,7 @@ fn other_machine(old: &Provenance, new: &Provenance, advice: &'static str) -> Re
     differ("the set of target features", &old.target_features, &new.target_features, SAME_BUILD)
 }
 
-/// Rejects planned cases that a gate could not compare with the run `old`. `here` describes this process. The error
-/// names the first difference in machine, compiler flags, version of obvhs, scene, rays, seed, ray source or budget.
+/// Rejects planned cases that a gate could not compare with the run `old`.
 pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(), Unlike> {
     other_machine(&old.provenance, here, SAME_MACHINE)?;
     differ("the version of obvhs, the reference,", &old.provenance.obvhs, &here.obvhs, SAME_BUILD)?;
@@ -108,14 +103,18 @@ pub fn unlike_plan(old: &Dataset, cases: &[Case], here: &Provenance) -> Result<(
         differ(&format!("the ray selection of {title}"), &rays(old), &rays(new), SAME_INPUT)?;
         let (a, b) = (&old.settings, &new.settings);
         differ("the seed", &a.seed.to_string(), &b.seed.to_string(), SAME_INPUT)?;
-        differ("the structure that finds the origins of secondary rays", &a.guide, &b.guide, SAME_INPUT)?;
+        differ(
+            "the structure that finds the origins of secondary rays",
+            &a.secondary_ray_structure,
+            &b.secondary_ray_structure,
+            SAME_INPUT,
+        )?;
         let [a, b] = [a, b].map(|own| own.budget_ns.map_or("none".to_owned(), |ns| duration(ns as f64)));
         differ("the budget", &a, &b, SAME_RAYS)?;
     }
     Ok(())
 }
 
-/// Settings that differ, such as `threads 1 and 2`.
 pub fn settings(old: &Case, new: &Case) -> Vec<String> {
     let all = differences(&old.group(), &new.group());
     all.into_iter().map(|(name, old, new)| format!("{name} {old} and {new}")).collect()

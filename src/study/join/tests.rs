@@ -8,7 +8,6 @@ fn epochs(scene: &str, numbers: &[usize]) -> Vec<Epoch> {
     numbers.iter().map(|&n| example(scene, 10, n, &[("x", 50, &[1000; 3]), ("y", 10, &[500; 3])])).collect()
 }
 
-/// Joins `epochs` of cases with three planned epochs. Returns the joined epochs and all other results.
 fn joined_as(epochs: Vec<Epoch>, whole: bool) -> (Vec<Epoch>, JoinedEpochs) {
     let measured = |epoch: Epoch| {
         let mut case = case(&epoch.scene, epoch.epoch, &[]);
@@ -23,7 +22,6 @@ fn joined(epochs: Vec<Epoch>) -> (Vec<Epoch>, JoinedEpochs) {
     joined_as(epochs, false)
 }
 
-/// The reason why two epochs are not joined if `change` is applied to the second.
 fn failure(change: impl Fn(&mut Epoch)) -> StudyError {
     let mut epochs = epochs("a", &[0, 1]);
     change(&mut epochs[1]);
@@ -68,10 +66,10 @@ fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
     type Change = ([&'static str; 2], fn(&mut Structure), bool);
     let changes: [Change; 6] = [
         (["exact", "exact"], |_| (), true),
-        // Tests that round are not compared.
+        // Triangle tests that round are not compared.
         (["exact", "moller-trumbore"], |_| (), false),
         (["moller-trumbore", "moller-trumbore"], |_| (), false),
-        // Known defects, wrong hits found earlier and different numbers of counted rays are not compared.
+        // Structures with known defects, wrong hits or other numbers of counted rays are not compared.
         (["exact", "exact"], |own| own.name = "obvhs-bvh2".into(), false),
         (["exact", "exact"], |own| own.rays[0].untimed = Some("3 wrong hits on 9 rays".into()), false),
         (["exact", "exact"], |own| own.rays[0].counts.as_mut().unwrap().rays = 10, false),
@@ -107,7 +105,6 @@ fn epochs_that_differ_in_what_they_must_not_are_named() {
     let sentence = answers.to_string();
     assert!(sentence.contains("y on a, primary rays") && sentence.contains("epochs 0 and 1"), "{sentence}");
     assert!(sentence.contains("the hits") && answers.is_wrong_hit(), "{sentence}");
-    // Other differences are not wrong hits.
     for (other, what) in [
         (failure(|epoch| epoch.structures[1].rays[0].hash = "12".into()), "differ in the rays"),
         (failure(|epoch| epoch.structures[1].rays[0].rays = 250), "the number of timed rays"),
@@ -166,7 +163,6 @@ fn a_program_whose_clock_chose_otherwise_is_timed_on_the_rays_that_all_epochs_ha
     }
     let (cases, _) = joined(vec![program(0, &[400, 100]), program(1, &[25, 6])]);
     assert!(cases.iter().all(|epoch| epoch.structures[0].refused.as_deref() == Some(UNSTEADY)));
-    // Different checksums mean that the hits have changed, even if the numbers of rays agree.
     let mut other = program(1, &[400, 100]);
     other.structures[0].rays[0].checksum = 2;
     let (cases, _) = joined(vec![program(0, &[400, 100]), other]);

@@ -1,4 +1,4 @@
-//! The file of one epoch of one scene, written whole or not at all.
+//! The file of one epoch of one scene, written atomically.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,6 @@ use crate::measure::Provenance;
 use crate::output::{OutputError, OutputFile};
 use crate::study::{Case, Dataset, Epoch};
 
-/// A case with its results and provenance.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct CaseFile {
     #[serde(skip)]
@@ -22,37 +21,39 @@ pub struct CaseFile {
 }
 
 impl CaseFile {
-    /// Reads the file `path`; an error if it cannot be read, is not a case, or has another version.
     pub fn read(path: &Path) -> Result<Self, JournalError> {
         let bytes = fs::read(path).map_err(|cause| JournalError::Read { path: path.into(), cause })?;
         let value = serde_json::from_slice(&bytes).map_err(|cause| JournalError::damaged(path, &cause))?;
         if Self::is_case(&value) { Self::of(path, value) } else { Err(JournalError::Foreign(path.into())) }
     }
 
-    /// Converts the content of a file that [is a case](Self::is_case); an error if it has another version.
+    /// `value` must be a [case](Self::is_case).
     pub fn of(path: &Path, value: Value) -> Result<Self, JournalError> {
         Dataset::check_schema(path, &value)?;
         let file: Self = serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))?;
         Ok(Self { path: path.into(), ..file })
     }
 
-    /// Whether `value` is a case, of any version of the format.
+    /// Also true for another version of the format.
     pub fn is_case(value: &Value) -> bool {
         ["schema", "provenance", "case"].iter().all(|field| value.get(field).is_some())
     }
 
-    /// Creates the folder of `path` and checks that the file can be written, before the case is measured.
+    /// Checks before the measurement that the file can be written.
     pub fn place(path: &Path) -> Result<OutputFile, JournalError> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         folder.map_or(Ok(()), fs::create_dir_all).map_err(|cause| JournalError::Write { path: path.into(), cause })?;
         OutputFile::check(path).map_err(|error| unwritable(path, error))
     }
 
-    /// Writes the results unless the file exists; returns whether it wrote them. After an error there is no new file.
-    /// Panics if the epoch cannot be read back.
+    /// Returns false if the file exists. After an error there is no new file.
+    ///
+    /// # Panics
+    ///
+    /// If the epoch cannot be read back.
     pub fn write(file: &OutputFile, provenance: &Provenance, case: &Case, epoch: &Epoch) -> Result<bool, JournalError> {
         let value = json!({ "schema": Dataset::SCHEMA, "provenance": provenance, "case": case, "epoch": epoch });
-        // JSON has no infinity and no NaN: both become null, and the case could not be read back.
+        // Infinity and NaN become null in JSON, and null cannot be read back as a number.
         let read = Self::deserialize(&value);
         assert!(read.is_ok(), "the case does not read back ({:?}): {value}", read.err());
         file.write_new(format!("{value}\n").as_bytes()).map_err(|error| unwritable(&file.path, error))

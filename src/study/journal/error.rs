@@ -37,7 +37,7 @@ pub enum JournalError {
 }
 
 impl JournalError {
-    /// The error without its line and column, which do not help in a file of one long line.
+    /// Omits line and column, because the file is one long line.
     pub fn damaged(path: &Path, cause: &serde_json::Error) -> Self {
         let text = cause.to_string();
         let problem = text.split(" at line ").next().unwrap_or(&text).to_owned();

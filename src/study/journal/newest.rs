@@ -1,4 +1,4 @@
-//! Groups the cases of a journal that are comparable, and keeps the newest file of each case.
+//! Groups comparable cases of a journal and keeps the newest file of each case.
 
 use super::CaseFile;
 use crate::escaped::Escaped as _;
@@ -7,8 +7,7 @@ use crate::report::number::plural;
 use crate::report::words::{each_once, listed};
 use crate::study::{Dataset, JoinedEpochs, Measured, join};
 
-/// One dataset per study, settings, build and machine, sorted by number of cases, then by date, both descending. Only
-/// the newest file of a case counts. Notes report replaced files, missing epochs, scenes left out and several hosts.
+/// One dataset per study, settings, build and machine. The dataset with the most cases is first.
 pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     let mut datasets: Vec<Dataset> = groups(files).iter().map(|group| dataset(group)).collect();
     datasets.retain(|dataset| !dataset.measured.is_empty());
@@ -16,7 +15,7 @@ pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     datasets
 }
 
-/// The dataset that was measured last. If `files` have other settings, builds or machines as well, a note says so.
+/// The dataset with the newest file.
 pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
     let groups = groups(files);
     let date = |group: &&Vec<CaseFile>| group.iter().map(|file| file.provenance.date.clone()).max();
@@ -30,7 +29,6 @@ pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
     Some(dataset)
 }
 
-/// Groups the files by study, settings, build and machine.
 fn groups(files: Vec<CaseFile>) -> Vec<Vec<CaseFile>> {
     let key = |file: &CaseFile| (file.case.study.clone(), file.case.group(), file.provenance.machine());
     let mut groups: Vec<(_, Vec<CaseFile>)> = vec![];
@@ -44,7 +42,6 @@ fn groups(files: Vec<CaseFile>) -> Vec<Vec<CaseFile>> {
     groups.into_iter().map(|(_, files)| files).collect()
 }
 
-/// Joins the files of one group into a dataset.
 fn dataset(files: &[CaseFile]) -> Dataset {
     let mut newest: Vec<&CaseFile> = vec![];
     let mut replaced: Vec<&CaseFile> = vec![];
@@ -55,13 +52,13 @@ fn dataset(files: &[CaseFile]) -> Dataset {
             None => newest.push(file),
         }
     }
-    // Keep only the epochs of a scene that have the structures and settings of its newest file.
+    // Epochs with other structures or settings than the newest file of the scene are dropped.
     let last = |file: &CaseFile| {
         let own = newest.iter().filter(|other| other.case.is_of_scene(&file.case));
-        own.max_by(|a, b| a.provenance.date.cmp(&b.provenance.date)).is_some_and(|last| last.case.is_beside(&file.case))
+        own.max_by(|a, b| a.provenance.date.cmp(&b.provenance.date))
+            .is_some_and(|last| last.case.is_same_measurement(&file.case))
     };
     let mut kept: Vec<&CaseFile> = newest.iter().copied().filter(|file| last(file)).collect();
-    // The files may be in any order: sort them, small scenes first.
     kept.sort_by_key(|file| (file.epoch.triangles, file.case.scene_title(), file.case.epoch));
     let measured = kept.iter().map(|file| Measured { case: file.case.clone(), epoch: file.epoch.clone() });
     let JoinedEpochs { measured, failures, unchecked, missing } = join(measured.collect());
@@ -75,7 +72,7 @@ fn dataset(files: &[CaseFile]) -> Dataset {
         let path = first.path.escaped();
         dataset.notes.push(format!("{cases} {were} measured again; the older files are ignored, e.g. {path}."));
     }
-    // Different cases may run on different hosts, whose times differ even with the same processor.
+    // Times of two hosts may differ even with the same processor.
     let hosts = each_once(files.iter().map(|file| file.provenance.host.as_str()));
     if hosts.len() > 1 {
         let (number, names) = (plural(hosts.len(), "host"), listed(&hosts));
@@ -84,11 +81,10 @@ fn dataset(files: &[CaseFile]) -> Dataset {
     dataset
 }
 
-/// The provenance of the oldest file, but with the hosts of all files, and with the load and cores of the file that has
-/// the highest load per core. Without files, the provenance of this process.
+/// The provenance of the oldest file, with all hosts and the highest load per core.
 pub fn of_all(all: &[&Provenance]) -> Provenance {
     let Some(oldest) = all.iter().min_by_key(|one| &one.date) else { return Provenance::capture(1) };
-    // The recorded load includes the threads of an earlier job on the same host: subtract them.
+    // The recorded load includes the threads of an earlier job on the same host. These threads are subtracted.
     let is_on = |one: &Provenance, host: &str| one.host.split(", ").any(|own| own == host);
     let follows = |one: &Provenance| all.iter().any(|other| is_on(other, &one.host) && other.date < one.date);
     let made = |one: &Provenance| if follows(one) { one.threads as f64 } else { 0.0 };

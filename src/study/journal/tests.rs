@@ -16,7 +16,6 @@ fn open(path: &Path) -> Result<Journal, JournalError> {
     Journal::open(path, provenance(), false, &[])
 }
 
-/// Adds a file of `case` with this date to the journal. Returns its path.
 fn measure(journal: &mut Journal, case: &Case, date: &str) -> PathBuf {
     let provenance = Provenance { date: date.into(), ..journal.provenance.clone() };
     let path = journal.place(case);
@@ -27,7 +26,6 @@ fn measure(journal: &mut Journal, case: &Case, date: &str) -> PathBuf {
     path
 }
 
-/// A journal of `n` epochs of the cube in a new folder.
 fn journal(folder: &TempDir, n: usize) -> PathBuf {
     let path = folder.path().join("runs/compare");
     let mut journal = open(&path).unwrap();
@@ -61,7 +59,7 @@ fn cases_of_other_settings_builds_and_machines_lie_side_by_side() {
     assert_eq!(files(&path).unwrap().len(), 4, "nothing was thrown away");
     let host = Provenance { host: "elsewhere".into(), load: Some(9.0), ..provenance() };
     assert!(Journal::open(&path, host, false, &[]).unwrap().get(&own).is_some(), "another host goes on");
-    // The newest file counts, in this run and the next.
+    // The newest file counts, in this run and in the next run.
     let mut fresh = Journal::open(&path, provenance(), true, &[]).unwrap();
     assert!(fresh.get(&own).is_none());
     let second = measure(&mut fresh, &own, "2026-01-04");
@@ -109,7 +107,6 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     let folder = tempfile::tempdir().unwrap();
     let path = journal(&folder, 2);
     let mut journal = open(&path).unwrap();
-    // A sphere with the same settings, and later the cube with other settings.
     measure(&mut journal, &case("Sphere", 0, &["x"]), "2026-01-01");
     let mut later = case("Cube", 0, &["x", "y"]);
     later.settings.runs = 9;
@@ -126,7 +123,6 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     assert_eq!(scenes(&last), ["Cube9"]);
     assert!(last.notes.iter().any(|note| note.starts_with("1 group of cases with other settings")), "{:?}", last.notes);
 
-    // If a case is measured again, the newer file counts. A note names the hosts.
     let mut elsewhere = open(&path).unwrap();
     elsewhere.provenance.host = "n2".into();
     measure(&mut elsewhere, &later, "2026-03-01");

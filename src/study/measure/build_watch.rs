@@ -4,7 +4,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Watches builds in a separate thread. Without a limit there is no thread.
+/// The default has no limit and no thread.
 #[derive(Default)]
 pub struct BuildWatch {
     /// Sends the index of a structure to the thread before its build, and `None` after the build.
@@ -16,8 +16,8 @@ impl BuildWatch {
     pub fn new(limit: Duration, on_limit: impl Fn(usize) + Send + 'static) -> Self {
         let (sender, receiver) = channel::<Option<usize>>();
         thread::spawn(move || {
-            while let Ok(told) = receiver.recv() {
-                let Some(structure) = told else { continue };
+            while let Ok(message) = receiver.recv() {
+                let Some(structure) = message else { continue };
                 if receiver.recv_timeout(limit) == Err(RecvTimeoutError::Timeout) {
                     on_limit(structure);
                 }
@@ -26,15 +26,14 @@ impl BuildWatch {
         Self { sender: Some(sender) }
     }
 
-    /// Runs `build`, which builds the structure with the index `structure`.
     pub fn during<R>(&self, structure: usize, build: impl FnOnce() -> R) -> R {
-        // The thread receives as long as `self` lives, so sending cannot fail.
-        let tell = |what| {
+        // The thread lives as long as `self`, so sending cannot fail.
+        let send = |what| {
             let _ = self.sender.as_ref().map(|sender| sender.send(what));
         };
-        tell(Some(structure));
+        send(Some(structure));
         let built = build();
-        tell(None);
+        send(None);
         built
     }
 }
@@ -45,13 +44,13 @@ mod tests {
 
     #[test]
     fn a_build_beyond_its_limit_is_told_once_and_a_short_one_never() {
-        let (sender, told) = channel();
+        let (sender, reports) = channel();
         let watch = BuildWatch::new(Duration::from_millis(100), move |structure| sender.send(structure).unwrap());
         watch.during(3, || ());
-        assert_eq!(watch.during(7, || told.recv_timeout(Duration::from_secs(60))), Ok(7));
+        assert_eq!(watch.during(7, || reports.recv_timeout(Duration::from_secs(60))), Ok(7));
         watch.during(8, || ());
         drop(watch);
-        assert!(told.recv_timeout(Duration::from_secs(60)).is_err());
+        assert!(reports.recv_timeout(Duration::from_secs(60)).is_err());
         assert_eq!(BuildWatch::default().during(1, || 5), 5);
     }
 }

@@ -5,13 +5,12 @@ use crate::measure::{Clock, CpuClock, Threads, median, peak_bytes};
 use crate::registry::Choice;
 use crate::scene::Scene;
 
-/// A finished structure and its build time.
 pub struct Built {
     pub choice: Choice,
     pub accel: Box<dyn DynAccel>,
-    /// Build time, ns; the median if the build is repeated. A runner measures its build time itself.
+    /// The median if the build is repeated. A runner measures the build time itself.
     pub build_ns: u64,
-    /// Peak memory, bytes, of the first build with a known peak. `None` if no build has one.
+    /// Peak memory of the first build with a known peak.
     pub peak_bytes: Option<usize>,
 }
 
@@ -19,25 +18,26 @@ pub struct Built {
 const SHORT_BUILD_NS: u64 = 20_000_000;
 
 impl Built {
-    /// Builds once, or up to three times if the builds are short.
     pub fn new(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::repeated(|_| Self::once(choice, scene, threads, clock))
     }
 
-    /// Like [`new`](Self::new), but counts the peak memory. Counting slows a build by less than build times vary.
+    /// Like [`new`](Self::new), but counts the peak memory.
     pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::repeated(|known_peak| {
             let once = || Self::once(choice, scene, threads, clock);
-            // Count until a peak is known: another thread that frees memory during a build may hide its peak.
+            // Another thread that frees memory during a build may hide the peak. So the memory of each build is counted
+            // until a peak is known.
             let (built, peak) = if known_peak.is_none() { peak_bytes(once) } else { (once(), None) };
             let built = built?;
-            // The counter misses memory of C++ and of other processes. Ignore a peak below the size of the structure.
+            // The counter misses memory of C++ and of other processes. A peak below the size of the structure is
+            // ignored.
             let is_seen = |peak: &usize| built.accel.remote().is_none() && *peak >= built.accel.footprint().total();
             Ok(Self { peak_bytes: known_peak.or(peak.filter(is_seen)), ..built })
         })
     }
 
-    /// Repeats a short build. `build` receives the peak that an earlier build has counted.
+    /// `build` receives the peak memory of an earlier build.
     fn repeated(build: impl Fn(Option<usize>) -> Result<Self, BuildError>) -> Result<Self, BuildError> {
         let mut last = build(None)?;
         let mut times = vec![last.build_ns as f64];
@@ -51,7 +51,7 @@ impl Built {
 
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let mesh = Arc::clone(&scene.mesh);
-        // For a single thread, use processor time: it excludes the time of other processes on the core.
+        // For one thread, processor time excludes the time of other processes on the core.
         let own = CpuClock::Process.on(threads);
         let clock = own.as_ref().map_or(clock, |clock| clock as &dyn Clock);
         let start = clock.now_ns();

@@ -1,4 +1,4 @@
-//! Checks hits against brute force, before the timing.
+//! Checks hits against brute force before the timing.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::study::epoch::Checked;
 use crate::study::{Stage, StudyError};
 use crate::validate::{ExpectedHits, Reference, Validation, validate_any_hits, validate_hits, validate_known};
 
-/// The feature of the workload that the structure does not support; `None` if it supports the workload.
+/// The feature of the workload that the structure does not support.
 pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
     let can = accel.capabilities();
     if workload.query == Query::Any && !can.any_hit {
@@ -25,7 +25,7 @@ pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static st
 const MOST: usize = 1 << 13;
 const FEWEST: usize = 1 << 6;
 
-/// The number of checked rays without a time limit. It depends on no clock: every run checks the same rays.
+/// The result depends on no clock, so every run checks the same rays.
 fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     if rays <= FEWEST {
         return rays;
@@ -34,29 +34,27 @@ fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     rays.min(1 << affordable.ilog2())
 }
 
-/// Brute force with a triangle test, and its hits for the checked rays of each workload.
 struct Known {
     reference: Reference,
     answers: Vec<Vec<Option<Hit>>>,
 }
 
-/// The inputs and the limits of all checks.
 pub struct Checks<'a> {
     pub scene: &'a Scene,
     pub workloads: &'a [Workload],
     /// Approximate limit of brute-force triangle tests per workload.
     pub tests: usize,
-    /// Time limit of all checks, ns. `None`: no limit.
+    /// Time limit of all checks together.
     pub limit_ns: Option<u64>,
     pub clock: &'a dyn Clock,
 }
 
-/// The number of rays for estimating the time of brute force per ray.
+/// Brute force traces this number of rays to estimate its time per ray.
 const PILOT: usize = 8;
 
 impl Checks<'_> {
-    /// Compares every structure with brute force over its own triangle test, on evenly spread rays of each workload.
-    /// Returns one row per structure, with one check per workload; `None` for a structure that panicked.
+    /// Compares every structure with brute force over the same triangle test. Returns one row per structure with one
+    /// check per workload. A row is `None` if the structure panicked.
     pub fn all<'b>(
         &self,
         built: impl IntoIterator<Item = &'b Built>,
@@ -81,8 +79,6 @@ impl Checks<'_> {
         Ok(checks)
     }
 
-    /// The checked rays of each workload. `tests` limits their number. With a time limit, the estimated time of brute
-    /// force also limits it.
     fn batches(&self, reference: &Reference, structures: usize) -> Vec<Vec<Ray>> {
         let rays = |workload: &Workload| {
             let mut count = affordable(workload.rays.len(), self.scene.mesh.len(), self.tests);
@@ -98,10 +94,9 @@ impl Checks<'_> {
         self.workloads.iter().map(rays).collect()
     }
 
-    /// Checks one structure on all workloads; `None` if it panicked.
     fn of(&self, built: &Built, known: &Known, batches: &[Vec<Ray>]) -> Option<Vec<Checked>> {
         let Known { reference, answers } = known;
-        // If the structure is brute force itself, a few rays suffice to show that its hits are repeatable.
+        // For brute force itself, a few rays show that the hits are repeatable.
         let most = if built.choice.entry.name == BRUTE_FORCE { FEWEST } else { MOST };
         let of_batch = |((rays, answers), workload): ((&Vec<Ray>, &Vec<Option<Hit>>), &Workload)| {
             let step = rays.len().div_ceil(most).max(1);
@@ -119,7 +114,7 @@ impl Checks<'_> {
     }
 }
 
-/// Like [`validate_known`], for a runner. Queries of a runner are slow, so only the timed query is checked.
+/// Queries of a runner are slow, so only the timed query is checked.
 fn validate_remote(accel: &dyn DynAccel, expected: &ExpectedHits, query: Query) -> Validation {
     match query {
         Query::Closest => validate_hits(expected, &accel.closest(expected.rays)),

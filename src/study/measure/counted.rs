@@ -1,22 +1,21 @@
-//! Counts the work of queries.
+//! Counts the triangle tests and node visits of queries.
 
 use crate::accel::{Counts, DynAccel, Observed, Query};
 use crate::geometry::Ray;
 use crate::measure::{checksum, spread};
 use crate::study::epoch::RayCounts;
 
-/// The maximum number of counted rays of a workload; they are evenly spread.
+/// The maximum number of counted rays of a workload.
 const RAYS: usize = 16384;
 
-/// Approximate maximum of triangle tests per count: structures with more tests per ray are counted on fewer rays.
+/// The approximate maximum of triangle tests of one count.
 const TESTS: u64 = 1 << 24;
 
-/// Rays for estimating the cost of a ray: `FEW`, or `FEWEST` if `FEW` rays need more than `FEW_TESTS` triangle tests.
 const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
 
-/// Counts over evenly spread `rays`, as many as `RAYS` and `TESTS` allow. Every run counts the same rays.
+/// The number of rays depends on no clock, so every run counts the same rays.
 pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     let counted = |count: usize| all(accel, &spread(rays, count), query);
     let pilot = counted(64);
@@ -24,7 +23,6 @@ pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts
     if affordable >= RAYS { counted(RAYS) } else { counted(1 << affordable.max(64).ilog2()) }
 }
 
-/// Counts over a few evenly spread `rays`: a quick estimate of the cost of a ray.
 pub fn few(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     let counted = |count: usize| all(accel, &spread(rays, count), query);
     let first = counted(FEWEST);
@@ -32,14 +30,13 @@ pub fn few(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     if affordable >= FEW as u64 { counted(FEW) } else { first }
 }
 
-/// Traces all `rays` with `query` and counts the work.
 pub fn all(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     let mut counts = Counts::default();
     let distances: Vec<Option<u32>> = match query {
         Query::Closest => {
             let mut hits = vec![None; rays.len()];
             accel.closest_hits_counted(rays, &mut hits, &mut counts);
-            // Make -0 and 0 the same bits.
+            // Adding 0 turns -0 into 0, so equal depths have equal bits.
             hits.iter().map(|hit| hit.map(|hit| (hit.t + 0.0).to_bits())).collect()
         }
         Query::Any => {
@@ -54,8 +51,8 @@ pub fn all(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     RayCounts { rays: rays.len(), hits, distances, ..counts }
 }
 
-/// The counts that a structure observes. Some trees have no separate leaf nodes: if triangles were tested but no leaf
-/// was entered, the numbers of leaves are unknown.
+/// Some trees have no separate leaf nodes. If triangles were tested but no leaf was entered, the number of leaves is
+/// unknown.
 fn observed(counts: &Counts, Observed { tests, steps }: Observed) -> RayCounts {
     let sees_leaves = steps && (counts.leaves > 0 || counts.tests == 0);
     RayCounts {
@@ -79,7 +76,7 @@ mod tests {
         use crate::kdtree::{KdConfig, KdTree};
         use crate::triangle::MollerTrumbore;
         let scene = crate::builtin::Builtin::find("cube").unwrap().scene(None).unwrap();
-        // Twelve triangles: a block of eight and a block of four.
+        // The twelve triangles are a block of eight and a block of four.
         let ray = Ray::new(glam::Vec3::new(0.01, 0.02, 9.0), glam::Vec3::new(0.0, 0.0, -1.0));
         let brute = BruteForce::<MollerTrumbore>::build(&scene.mesh, &Default::default()).unwrap();
         let counts = all(&brute, &[ray; 3], Query::Closest);

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::measure::{Clock, machine};
 
-/// Conditions of the measuring thread during the sampling. `None` if the system does not report a value.
+/// A field is `None` if the system does not report the value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Environment {
     /// The process id.
@@ -17,7 +17,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Runs `work` and records the conditions of this thread, which runs on core `core`.
+    /// This thread must run on core `core`.
     pub fn during<R>(clock: &dyn Clock, core: usize, work: impl FnOnce() -> R) -> (R, Self) {
         let (interruptions, clock_rate) = (machine::interruptions(), machine::clock_rate(core));
         let start_ns = clock.now_ns();
@@ -31,13 +31,13 @@ impl Environment {
         (result, environment)
     }
 
-    /// Combines the conditions of `epochs`, which are in order. The process id of the result is 0.
+    /// `epochs` must be in order.
     pub fn of_all<'a>(epochs: impl IntoIterator<Item = &'a Self>) -> Self {
         let sum = |all: Self, own: &Self| Self {
             process: 0,
             seconds: all.seconds + own.seconds,
             interruptions: own.interruptions.map(|n| all.interruptions.unwrap_or(0) + n).or(all.interruptions),
-            // The rate at the beginning of the first epoch, and at the end of the last one.
+            // The rate at the beginning of the first epoch, and at the end of the last epoch.
             clock_rates: own.clock_rates.map(|own| (all.clock_rates.unwrap_or(own).0, own.1)).or(all.clock_rates),
         };
         epochs.into_iter().fold(Self::default(), sum)

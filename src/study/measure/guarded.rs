@@ -1,20 +1,18 @@
-//! Catches panics of structures: a panic on a ray must not end a run with many structures.
+//! Catches panics of structures. A panic on one ray must not end the run.
 
 use std::rc::Rc;
 
 use crate::measure::{Failure, Pass, Stopwatch, Timed};
 use crate::panics::caught;
 
-/// Reason to refuse a structure whose traversal panicked.
 pub const PANICKED: &str =
     "its traversal panicked on these rays: omit the structure, or find the ray with `sahara validate`";
 
-/// The result of a query; `None` if the structure panicked.
 pub fn guarded<R>(query: impl FnOnce() -> R) -> Option<R> {
     caught(query).ok()
 }
 
-/// A pass that survives a panic of its structure. After the panic it traces no rays and reports a failure.
+/// A pass over rays that survives a panic of the structure. After a panic, the pass traces no rays.
 pub struct Guarded<'a> {
     pass: Pass<'a>,
     levels: usize,
@@ -22,7 +20,7 @@ pub struct Guarded<'a> {
 }
 
 impl<'a> Guarded<'a> {
-    /// Guards `pass`. If it panics, the returned `Failure` receives the reason.
+    /// If `pass` panics, the returned `Failure` receives the reason.
     pub fn new(pass: Pass<'a>) -> (Self, Failure) {
         let failure = Failure::default();
         (Self { pass, levels: 1, failure: Rc::clone(&failure) }, failure)
@@ -32,7 +30,6 @@ impl<'a> Guarded<'a> {
         self.failure.borrow().is_some()
     }
 
-    /// Runs `query` on the pass. `None` if the pass panics or has panicked before.
     fn query<R>(&mut self, query: impl FnOnce(&mut Pass<'a>) -> R) -> Option<R> {
         let given = if self.has_panicked() { None } else { guarded(|| query(&mut self.pass)) };
         if given.is_none() {

@@ -1,4 +1,4 @@
-//! Measurements that only the study `accuracy` needs: errors against the exact oracle, and the slowest ray.
+//! Counts errors against the exact oracle and times the slowest ray, for the study `accuracy`.
 
 use std::hint::black_box;
 use std::slice;
@@ -12,7 +12,6 @@ use crate::oracle::DepthRule;
 use crate::oracle::{Oracle, Truth};
 use crate::validate::{ErrorCounts, count_errors};
 
-/// Rays and their exact hits.
 pub struct Judge<'a> {
     rays: &'a [Ray],
     truths: Vec<Option<Truth>>,
@@ -28,15 +27,13 @@ const CHUNK: usize = 1024;
 const SHORT_NS: u64 = 2_000_000_000;
 
 impl<'a> Judge<'a> {
-    /// Computes the exact hits of `rays`, on all threads.
     pub fn new(rays: &'a [Ray], oracle: &Oracle) -> Self {
         let truths = rays.par_iter().map(|ray| oracle.nearest(ray)).collect();
         Self { rays, truths }
     }
 
-    /// Counts the errors of `accel` on evenly spread rays, on all threads. Half of `budget_ns` is divided equally among
-    /// `pairs` pairs of structure and workload, but a pair gets at least 2 s. The rays that fit into this time at `ps`
-    /// picoseconds per ray are judged, at least 64. The number depends on no clock: every run judges the same rays.
+    /// `ps` is the predicted time per ray in picoseconds. `pairs` pairs of structure and workload share half of
+    /// `budget_ns`. The number of rays depends on no clock, so every run judges the same rays.
     pub fn errors(&self, accel: &dyn DynAccel, ps: u64, budget_ns: u64, pairs: usize) -> ErrorCounts {
         let share_ns = (budget_ns / 2 / pairs.max(1) as u64).max(SHORT_NS);
         let all = self.rays.len();
@@ -50,10 +47,10 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// How often each ray is traced. The minimum counts: a disturbance rarely slows the same ray every time.
+/// The number of timings of each ray. The minimum counts, because a disturbance rarely slows every timing.
 const PASSES: usize = 3;
 
-/// The time of the slowest of `rays`, ns. Each ray is traced separately; its time is the minimum over the passes.
+/// The time of the slowest ray, ns.
 pub fn slowest(accel: &dyn DynAccel, rays: &[Ray], clock: &dyn Clock) -> u64 {
     let mut least = vec![u64::MAX; rays.len()];
     for _ in 0..PASSES {
@@ -81,8 +78,7 @@ mod tests {
         assert_eq!(rays, RayKind::Uniform.rays(&scene, 400, 1));
         let judge = Judge::new(&rays, &Oracle::new(&scene.mesh));
         let judged = |ps, budget_ns, pairs| judge.errors(accel.as_ref(), ps, budget_ns, pairs).rays;
-        // A pair gets 2 s, the minimum, and a ray takes 1 ps, 10 ms or forever. Then a ray takes 10 ms, and one, two or
-        // nine pairs divide 3 s, half of the budget.
+        // A pair gets at least 2 s. A ray takes 1 ps, 10 ms or forever. Then half of 6 s is divided among the pairs.
         assert_eq!([1, 10_000_000_000, u64::MAX].map(|ps| judged(ps, 0, 1)), [400, 200, 64]);
         assert_eq!([1, 2, 9].map(|pairs| judged(10_000_000_000, 6_000_000_000, pairs)), [300, 200, 200]);
     }

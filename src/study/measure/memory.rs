@@ -1,4 +1,4 @@
-//! Whether all structures of an epoch fit into memory together.
+//! Checks that all structures of an epoch fit into memory together.
 
 use crate::measure::machine::memory;
 use crate::registry::Choice;
@@ -6,17 +6,17 @@ use crate::report::words::distinct;
 use crate::scene::Scene;
 use crate::study::StudyError;
 
-/// Approximate bytes per triangle of a structure: 50 to 110 in finished trees, twice as many during a build.
+/// Approximate bytes per triangle of a structure. Finished trees need 50 to 110 bytes.
 const BYTES: u64 = 100;
 
-/// Rejects a case that does not fit into memory. All structures of an epoch exist at once, because samples alternate.
+/// All structures of an epoch exist at once, because the samples of structures alternate.
 pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
-    // A twin has the label of its structure. The advice in the error does not count twins.
+    // A twin repeats the label of a structure. The advice in the error does not count twins.
     let twins = choices.len() - distinct(choices.iter().map(|choice| &choice.label)).len();
     fits_into(memory(), [choices.len(), twins], scene.mesh.len(), &scene.name)
 }
 
-/// An error if `structures` structures, which include `twins` twins, do not fit into `memory` bytes.
+/// The number of structures includes twins.
 fn fits_into(
     memory: Option<u64>,
     [structures, twins]: [usize; 2],

@@ -1,4 +1,4 @@
-//! Measures one epoch of one scene, the unit of measurement of every study.
+//! Measures one epoch of one scene.
 
 mod build_watch;
 mod built;
@@ -37,10 +37,10 @@ pub use environment::Environment;
 pub use guarded::{PANICKED, guarded};
 pub use prepared::Prepared;
 
-/// Builds all structures and takes their samples; in epoch 0, also checks hits and counts work. [`join`](super::join)
-/// checks that the epochs agree. A structure is refused if it cannot be built, panics or changes its hits; a structure
-/// with wrong hits gets no time, except with [`Check::Oracle`]; all other structures are measured. An error if the
-/// structures do not fit into memory, or if the ray source, at whose hits secondary rays start, cannot be built.
+/// Builds all structures and takes samples. Epoch 0 also checks hits and counts work.
+///
+/// A structure is refused if it cannot be built, panics or changes its hits. A structure with wrong hits gets no time,
+/// except with [`Check::Oracle`]. The failure of a structure is recorded in the epoch and is not an error.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,
@@ -65,7 +65,6 @@ pub fn measure(
         bench.count();
         bench.structures.iter_mut().for_each(drop_times_of_wrong_tree);
     }
-    // A refused structure has no times: drop its rays.
     bench.structures.iter_mut().filter(|one| one.refused.is_some()).for_each(|one| one.rays.clear());
     let scene = &prepared.scene;
     Ok(Epoch {
@@ -80,24 +79,21 @@ pub fn measure(
     })
 }
 
-/// The workloads and structures of an epoch, with the results so far.
 struct Bench<'a> {
     case: &'a Case,
     prepared: &'a Prepared,
     clock: &'a dyn Clock,
     workloads: Vec<Workload>,
-    /// One record per structure of the case.
     structures: Vec<Structure>,
-    /// The built structures, in the same order; `None` if a build failed.
+    /// In the order of `structures`. `None` if a build failed.
     built: Vec<Option<Built>>,
     /// Checksums of the hits on the timed rays of this epoch.
     checksums: Vec<(Pair, u64)>,
-    /// Random blocks of memory between the structures, so their addresses differ between epochs.
+    /// Blocks of random sizes between structures change the addresses from epoch to epoch.
     _blocks: Vec<Vec<u8>>,
 }
 
 impl<'a> Bench<'a> {
-    /// Builds the structures and makes the rays.
     fn set_up(
         case: &'a Case,
         prepared: &'a Prepared,
@@ -130,18 +126,19 @@ impl<'a> Bench<'a> {
             built.push(ready.ok());
         }
 
-        // The guide is the ray source: secondary rays start at its hits.
+        // Secondary rays start at the hits of the tracer.
         let own;
-        let guide = match built.iter().flatten().find(|built| built.choice.label == prepared.guide.label) {
-            Some(built) => built,
-            None => {
-                let refused = StudyError::of_build(&prepared.guide.label, &scene.name);
-                own = Built::new(&prepared.guide, scene, threads, clock).map_err(refused)?;
-                &own
-            }
-        };
-        let mut told = |kind: &str| progress(Stage::Rays(kind.into()));
-        let workloads = case.workloads.workloads(scene, case.settings.seed, guide.accel.as_ref(), &mut told);
+        let tracer =
+            match built.iter().flatten().find(|built| built.choice.label == prepared.secondary_ray_structure.label) {
+                Some(built) => built,
+                None => {
+                    let refused = StudyError::of_build(&prepared.secondary_ray_structure.label, &scene.name);
+                    own = Built::new(&prepared.secondary_ray_structure, scene, threads, clock).map_err(refused)?;
+                    &own
+                }
+            };
+        let mut report = |kind: &str| progress(Stage::Rays(kind.into()));
+        let workloads = case.workloads.workloads(scene, case.settings.seed, tracer.accel.as_ref(), &mut report);
         let workloads = workloads.map_err(|cause| StudyError::Rays(format!("{cause:#}")))?;
         let hashes: Vec<String> = workloads.iter().map(Workload::hash).collect();
         for (structure, built) in structures.iter_mut().zip(&built) {
@@ -152,7 +149,6 @@ impl<'a> Bench<'a> {
         Ok(Self { case, prepared, clock, workloads, structures, built, checksums: vec![], _blocks: blocks })
     }
 
-    /// Checks all structures against brute force. A structure is not timed on a workload with wrong hits.
     fn check(
         &mut self,
         tests: usize,
@@ -173,7 +169,6 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// Checks the hits on all timed rays. A structure with wrong hits loses its times on the workload.
     fn check_timed(&mut self, tests: usize, progress: &mut dyn FnMut(Stage)) -> Result<(), StudyError> {
         let Prepared { scene, .. } = self.prepared;
         let mut checks = TimedCheck::new(scene, &self.workloads, self.case.epochs, tests);
@@ -192,8 +187,7 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// Counts the errors of all structures against the exact oracle. A structure that declines some of the rays is
-    /// refused, because its error rate would cover fewer rays.
+    /// A structure that declines some of the rays is refused, because its error rate would cover fewer rays.
     fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
         progress(Stage::Rays("exact results for all".into()));
         let oracle = Oracle::new(&self.prepared.scene.mesh);
@@ -217,8 +211,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Takes all samples. The numbers of rays and samples are chosen as if no structure had failed or had wrong hits.
-    /// So they are equal in all epochs, although a structure may fail in one epoch and only epoch 0 checks hits.
+    /// The numbers of rays and samples are chosen as if no structure had failed or had wrong hits. So the numbers are
+    /// equal in all epochs.
     fn sample(&mut self, progress: &mut dyn FnMut(Stage)) -> Environment {
         let (clock, settings) = (self.clock, &self.case.settings);
         let plan = SamplePlan {
@@ -243,11 +237,11 @@ impl<'a> Bench<'a> {
         };
         let pairs: Vec<Pair> = all.iter().copied().filter(is_timed).collect();
         let total = pairs.len() * allotment.runs;
-        let mut told = |taken| progress(Stage::Trace(taken, total));
+        let mut report = |taken| progress(Stage::Trace(taken, total));
         let _pin = threads.pin();
         let core = threads.cores().map_or(0, |cores| cores[0]);
         let (taken, environment) =
-            Environment::during(clock, core, || timing.take(&allotment, &is_timed, &plan, &mut told));
+            Environment::during(clock, core, || timing.take(&allotment, &is_timed, &plan, &mut report));
 
         let times_single_rays = settings.check == Check::Oracle && self.case.epoch == 0;
         for (pair, samples) in pairs.iter().zip(taken) {
@@ -273,7 +267,6 @@ impl<'a> Bench<'a> {
         environment
     }
 
-    /// Counts the work per ray, also of structures with wrong hits.
     fn count(&mut self) {
         let settings = &self.case.settings;
         let mut pairs = Pair::all(self.structures.len(), self.workloads.len());
@@ -282,7 +275,6 @@ impl<'a> Bench<'a> {
             let counts = |rays: &Rays| rays.untimed.is_none() || rays.wrong;
             structure.refused.is_none() && structure.rays.get(pair.workload).is_some_and(counts)
         });
-        // A quick run counts fewer rays.
         let count = if settings.is_quick() { counted::few } else { counted::affordable };
         let (built, workloads) = (&self.built, &self.workloads);
         let counted = |pair: &Pair| {
@@ -302,7 +294,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// Returns `result`. If it is `None` (a panic) or the runner has failed, refuses the structure and returns `None`.
+/// Refuses the structure if `result` is `None` (a panic) or the runner has failed.
 fn refuse_unless<T>(structure: &mut Structure, built: &Built, result: Option<T>) -> Option<T> {
     let panicked = result.is_none().then(|| PANICKED.into());
     let Some(reason) = built.accel.remote().and_then(Remote::failure).or(panicked) else { return result };

@@ -1,6 +1,5 @@
-//! The unit of timing: a structure on a workload.
+//! The unit of timing is a structure on a workload.
 
-/// A structure and a workload, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pair {
     pub structure: usize,
@@ -8,7 +7,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Every structure on every workload, structure by structure.
+    /// All workloads of the first structure come first.
     pub fn all(structures: usize, workloads: usize) -> Vec<Self> {
         (0..structures).flat_map(|structure| (0..workloads).map(move |workload| Self { structure, workload })).collect()
     }

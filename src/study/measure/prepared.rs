@@ -1,4 +1,4 @@
-//! Prepares an epoch before it is measured, and builds its structures.
+//! Prepares an epoch and builds the structures.
 
 use super::BuildWatch;
 use super::built::Built;
@@ -7,30 +7,31 @@ use crate::registry::{Choice, Registry};
 use crate::scene::Scene;
 use crate::study::{Case, Stage, StudyError};
 
-/// A case with everything that it names, loaded before the measuring.
 pub struct Prepared {
     pub scene: Scene,
     /// One per structure of the case, in order.
     pub choices: Vec<Choice>,
-    pub guide: Choice,
+    pub secondary_ray_structure: Choice,
     pub threads: Threads,
 }
 
 impl Prepared {
-    /// Resolves the names in the case. `scene` is the scene, if it is already loaded. An error if a name is unknown,
-    /// the scene has changed since the plan, or the threads are not available.
+    /// `scene` is the scene of the case if it is already loaded.
     pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
         let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
         let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;
         let threads = Threads::pinned(case.settings.threads).map_err(StudyError::Threads)?;
-        Ok(Self { scene, choices, guide: registry.choose(&case.settings.guide)?, threads })
+        Ok(Self {
+            scene,
+            choices,
+            secondary_ray_structure: registry.choose(&case.settings.secondary_ray_structure)?,
+            threads,
+        })
     }
 }
 
-/// Builds every structure of the case that is not skipped. Epoch 0 also counts the peak memory of builds. Each epoch
-/// builds in a random order and allocates blocks of random sizes between the structures, so addresses differ between
-/// epochs. Returns, for each choice, the structure or the reason for its refusal. Also returns the blocks, which must
-/// live as long as the structures.
+/// Each epoch builds in a random order and allocates blocks of random sizes, so addresses differ between epochs.
+/// Returns one result per choice, and the blocks. The blocks must live as long as the structures.
 pub fn build_all(
     case: &Case,
     prepared: &Prepared,
@@ -44,7 +45,7 @@ pub fn build_all(
     let (mut built, mut blocks) = (vec![], vec![]);
     for i in random.shuffled(choices.len()) {
         progress(Stage::Build((&choices[i].label).into()));
-        // Small blocks shift later blocks on the heap, large ones shift mapped pages.
+        // Small blocks shift later blocks on the heap. Large blocks shift mapped pages.
         blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
         blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
         let one = match &case.structures[i].skipped {

@@ -1,4 +1,6 @@
-//! Predicts the cost of a ray from counts, so every epoch times the same number of rays, on any machine.
+//! Predicts the cost of a ray from counts of work.
+//!
+//! The prediction depends on no clock, so every epoch times the same number of rays.
 
 use rayon::prelude::*;
 
@@ -12,10 +14,9 @@ use crate::measure::median;
 use crate::request::BRUTE_FORCE;
 use crate::scene::Workload;
 
-/// Nanoseconds per ray, per inner node or leaf entered, and per block of triangles tested: rounded from a regression
-/// over all families of structures (papers/TUNING.md). A prediction is wrong by a factor of about 1.5, but the possible
-/// numbers of rays differ by factors of four. In the default run of `compare`, a clock would choose the same number of
-/// rays in nine of ten cells, and the run would take as long.
+/// Nanoseconds per ray, per inner node or leaf entered, and per block of triangles tested. The numbers are rounded from
+/// a regression (papers/TUNING.md). A typical error of a factor of 1.5 is tolerable, because numbers of rays differ by
+/// factors of four.
 const RAY_NS: f64 = 20.0;
 const STEP_NS: f64 = 15.0;
 const BLOCK_NS: f64 = 8.0;
@@ -23,7 +24,7 @@ const BLOCK_NS: f64 = 8.0;
 /// The slowdown of an unoptimised build.
 const UNOPTIMISED: f64 = if cfg!(debug_assertions) { 12.0 } else { 1.0 };
 
-/// Assumed steps per ray if no structure counts them: about as many as in a tree over a hundred thousand triangles.
+/// Assumed steps per ray if no structure counts steps. A tree over a hundred thousand triangles has about this number.
 const STEPS: f64 = 12.0;
 
 /// Picoseconds per ray of each case. An unknown cost is the median on the same workload, without brute force.
@@ -42,7 +43,7 @@ pub fn picoseconds(cases: &[Pair], built: &[Option<&Built>], workloads: &[Worklo
     cases.iter().zip(&predicted).map(nanoseconds).collect()
 }
 
-/// Nanoseconds per ray; `None` if the structure is not built, is a runner, declines the rays, does not count or panics.
+/// Nanoseconds per ray.
 fn predicted(case: &Pair, built: &[Option<&Built>], workloads: &[Workload]) -> Option<f64> {
     let (accel, workload) = (built[case.structure]?.accel.as_ref(), &workloads[case.workload]);
     if accel.remote().is_some() || accel.observed() != Observed::ALL || declined(accel, workload).is_some() {
@@ -70,19 +71,19 @@ mod tests {
             Built::new(&choice, &scene, &threads, &SystemClock::start()).unwrap()
         };
         let all = ["brute-force", "median-kd", "sah-kd", "sah-bvh"].map(build);
-        let guide = all[2].accel.as_ref();
-        let workloads = [Workload::new(&scene, WorkloadKind::Primary, &Sampling::of(&scene), guide)];
+        let tracer = all[2].accel.as_ref();
+        let workloads = [Workload::new(&scene, WorkloadKind::Primary, &Sampling::of(&scene), tracer)];
         let cases = Pair::all(all.len(), 1);
         let mut built = all.each_ref().map(Some);
         let costs = picoseconds(&cases, &built, &workloads);
-        // One leaf with 2304 triangles in blocks of eight.
+        // Brute force is one leaf with 2304 triangles in blocks of eight.
         let brute = UNOPTIMISED * (RAY_NS + STEP_NS + 288.0 * BLOCK_NS) * 1000.0;
         assert_eq!(costs[0], brute as u64);
         assert!(costs[1] < costs[0] / 4 && costs[2..].iter().all(|&cost| cost < costs[1]), "{costs:?}");
         assert_eq!(picoseconds(&cases, &built, &workloads), costs, "costs do not depend on a clock");
         assert!(picoseconds(&[], &built, &workloads).is_empty());
 
-        // A failed build has the median cost of the two other trees, which keep their costs.
+        // A failed build has the median cost of the two other trees.
         built[1] = None;
         let without = picoseconds(&cases, &built, &workloads);
         assert!(without[1].abs_diff(costs[2].midpoint(costs[3])) <= 1, "{without:?} {costs:?}");

@@ -1,4 +1,4 @@
-//! Fills the [`Rays`] record of a structure on a workload: before the timing, and after a check of its hits.
+//! Fills the [`Rays`] record of a structure on a workload.
 
 use std::ffi::OsStr;
 
@@ -10,7 +10,6 @@ use crate::request::known_defect;
 use crate::scene::Workload;
 use crate::study::epoch::{Checked, Rays, Structure};
 
-/// The record of a structure on a workload before any check or timing.
 pub fn new_record(built: &Built, workload: &Workload, hash: &str) -> Rays {
     let declined = declined(built.accel.as_ref(), workload);
     Rays {
@@ -24,7 +23,6 @@ pub fn new_record(built: &Built, workload: &Workload, hash: &str) -> Rays {
     }
 }
 
-/// Records a check. If it found wrong hits, drops the times; the reason names a ray with a wrong hit.
 pub fn record_check(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Built) {
     rays.wrong = check.errors > 0 && (rays.untimed.is_none() || rays.wrong);
     if rays.wrong {
@@ -41,7 +39,7 @@ pub fn record_check(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Buil
     rays.checked = Some(check);
 }
 
-/// Drops all times of a structure if it has wrong hits on one workload and no known defects.
+/// Wrong hits on one workload drop the times on all workloads.
 pub fn drop_times_of_wrong_tree(structure: &mut Structure) {
     let Some(wrong) = structure.rays.iter().find(|rays| rays.wrong) else { return };
     if known_defect(&structure.name).is_none() {

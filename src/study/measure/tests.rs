@@ -33,11 +33,10 @@ pub enum Flaw {
     Lossy,
     /// Loses all hits once [`HAS_TURNED`] is set.
     Turning,
-    /// Panics on every ray.
     Panicking,
-    /// Panics over every mesh with triangles.
+    /// The builder panics over every mesh with triangles.
     Unbuildable,
-    /// Panics over the empty mesh.
+    /// The builder panics over the empty mesh.
     Rootless,
 }
 
@@ -93,12 +92,10 @@ impl Accel for Flawed {
     }
 }
 
-/// The structures of this crate and `flawed`.
 pub fn registry() -> Registry {
     Registry::builtin().with::<Flawed>("flawed", FlawedConfig::default())
 }
 
-/// A case with these structures and workloads; all structures are timed on at most 1024 rays per workload.
 fn case(word: &str, specs: &[&str], kinds: &[WorkloadKind]) -> Case {
     let registry = registry();
     let case = example("", 0, specs);
@@ -121,7 +118,6 @@ fn measured(case: &Case, progress: &mut dyn FnMut(Stage)) -> Result<Measured, St
     Ok(Measured { case: case.clone(), epoch })
 }
 
-/// Two epochs on the primary and shadow rays of the cube.
 fn run(specs: &[&str]) -> Result<Dataset, StudyError> {
     // The cube has no mirrors, so it has no mirror rays.
     let case = case("cube", specs, &[WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow]);

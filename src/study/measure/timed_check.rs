@@ -1,5 +1,6 @@
-//! Checks the hits on all timed rays. Another tree traces the same rays; brute force and exact arithmetic judge the
-//! rays on which structure and tree differ.
+//! Checks the hits on all timed rays against another tree.
+//!
+//! Brute force judges the rays on which structure and tree differ.
 
 use std::borrow::Cow;
 
@@ -21,25 +22,23 @@ use crate::validate::{ExpectedHits, Kind, Reference, differences, validate_any_h
 /// The minimum number of disputed rays of a workload that brute force judges.
 const FEWEST: usize = 64;
 
-/// The inputs of the check in a scene.
 pub struct TimedCheck<'a> {
     pub scene: &'a Scene,
     pub workloads: &'a [Workload],
-    /// The number of planned epochs. Each epoch times other rays.
+    /// The number of planned epochs. Different epochs time different rays.
     pub epochs: usize,
     /// Approximate limit of brute-force triangle tests per workload.
     pub tests: usize,
     references: Vec<TreeHits>,
 }
 
-/// The hits of a tree of this suite for the rays of each workload.
 struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
-    /// The tree. Structures with its triangle test must return the same bits; all others must agree within rounding.
+    /// Structures with the triangle test of this tree must return equal bits. Other structures must agree within
+    /// rounding.
     tree: Reference,
-    /// Judges differences: brute force over the structure's triangle test, or over `exact` if the suite lacks that
-    /// test.
+    /// Brute force with the triangle test of the structure, or with `exact` if the suite lacks this test.
     judge: Reference,
     /// The hits of the tree by workload and ray. The outer `Option` is `None` until the ray is traced.
     hits: Vec<Vec<Option<Option<Hit>>>>,
@@ -50,9 +49,9 @@ impl<'a> TimedCheck<'a> {
         Self { scene, workloads, epochs, tests, references: vec![] }
     }
 
-    /// Checks the hits on all timed rays, `rays` per epoch. `None` if the structure panics. An error if no tree can be
-    /// built over the mesh. If structure and tree have the same triangle test, their hits must have the same bits. Then
-    /// only the rays of epoch 0 are checked if `checksum`, over their hits, is right: `join` compares later epochs.
+    /// `rays` is the number of timed rays per epoch, and `checksum` covers the hits of epoch 0. A structure and a tree
+    /// with the same triangle test must return equal bits. Returns `None` if the
+    /// structure panics.
     pub fn check(
         &mut self,
         built: &Built,
@@ -82,7 +81,8 @@ impl<'a> TimedCheck<'a> {
         Ok(guarded(|| self.judged(built, &self.references[place], &chosen, &expected, &found)))
     }
 
-    /// The index of the tree that checks `built`: another structure with the same triangle test, or else with `exact`.
+    /// Returns the index of a tree with the triangle test of `built`, or else with `exact`. The tree is never the
+    /// structure itself.
     fn reference(&mut self, built: &Built) -> Result<usize, BuildError> {
         let own_test = built.choice.triangle_test();
         let name = if built.choice.entry.name == "sah-bvh" { "sah-hybrid" } else { "sah-bvh" };
@@ -101,7 +101,7 @@ impl<'a> TimedCheck<'a> {
         Ok(self.references.len() - 1)
     }
 
-    /// Judges the differences. The tree may be wrong itself, so brute force traces as many disputed rays as affordable.
+    /// The tree may be wrong too, so brute force traces as many disputed rays as affordable.
     fn judged(
         &self,
         built: &Built,
@@ -144,7 +144,7 @@ impl<'a> TimedCheck<'a> {
     }
 }
 
-/// The indices of the rays of a workload that any of `epochs` epochs times, with `rays` rays per sample.
+/// Indices of the rays that at least one of `epochs` epochs times. A sample has `rays` rays.
 fn timed(all: usize, rays: usize, epochs: usize) -> Vec<usize> {
     let level = level_of(all, rays).unwrap_or(0);
     let mut timed: Vec<usize> = (0..epochs.max(1)).flat_map(|epoch| tiles(all, level, epoch)).flatten().collect();
@@ -154,7 +154,6 @@ fn timed(all: usize, rays: usize, epochs: usize) -> Vec<usize> {
 }
 
 impl TreeHits {
-    /// The hits of the tree for these rays of a workload.
     fn hits_of(&mut self, place: usize, workload: &Workload, wanted: &[usize]) -> Vec<Option<Hit>> {
         let hits = &mut self.hits[place];
         let missing: Vec<usize> = wanted.iter().copied().filter(|&index| hits[index].is_none()).collect();
@@ -165,7 +164,7 @@ impl TreeHits {
     }
 }
 
-/// The hits of a structure. It receives the rays in batches, as in the timing; a runner receives all rays at once.
+/// The structure receives rays in batches, as in the timing.
 fn traced(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> QueryResults {
     let chunk = if accel.remote().is_some() { rays.len().max(1) } else { TILE };
     let mut results = QueryResults::misses(query, rays.len());

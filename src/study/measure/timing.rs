@@ -12,13 +12,12 @@ use crate::measure::{
 use crate::registry::Choice;
 use crate::scene::Workload;
 
-/// With `by_clock`, a sample that takes more than this multiple of its share of the budget gets fewer rays.
+/// A sample gets fewer rays if it takes more than this multiple of its budget.
 const SLACK: u64 = 8;
 
-/// The reason why the samples of a case are invalid.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SampleFailure {
-    /// The structure panicked, or the runner failed. Contains the reason as a clause.
+    /// The structure panicked, or the runner failed.
     #[error("{0}")]
     Ended(String),
     #[error("it returns other hits when it traces the same rays again: the structure is not deterministic")]
@@ -27,23 +26,22 @@ pub enum SampleFailure {
 
 pub struct Timing<'a> {
     pub cases: &'a [Pair],
-    /// The requested structures.
     pub choices: &'a [Choice],
-    /// The built structures, in the same order; `None` if a build failed.
+    /// In the order of `choices`. `None` if a build failed.
     pub built: &'a [Option<&'a Built>],
-    /// All workloads; none is empty.
+    /// No workload is empty.
     pub workloads: &'a [Workload],
     pub threads: &'a Threads,
     pub clock: &'a dyn Clock,
-    /// Whether measured times reduce the rays of cases whose prediction is far off. Runners always use measured times.
+    /// Measured times reduce the numbers of rays if the prediction is far off. Runners always use measured times.
     pub by_clock: bool,
 }
 
 impl Timing<'_> {
-    /// The number of rays and of samples of each case, from the predicted cost of its rays. Failed builds and declined
-    /// workloads are included, so a failure in one epoch does not change the numbers of any other case.
+    /// Failed builds and declined workloads are included. So a failure in one epoch does not change the number of rays
+    /// of other cases.
     pub fn allot(&self, plan: &SamplePlan) -> Allotment {
-        // A twin has the label of its structure. Cases with one label are timed on the same number of rays.
+        // A twin has the label of its structure. Cases with equal labels are timed on equal numbers of rays.
         let label = |case: &Pair| (case.workload, &self.choices[case.structure].label);
         let group =
             |case: &Pair| self.cases.iter().position(|other| label(other) == label(case)).expect("it is among them");
@@ -53,11 +51,10 @@ impl Timing<'_> {
         allot(&self.cases.iter().zip(costs).map(cost).collect::<Vec<_>>(), plan)
     }
 
-    /// Takes interleaved samples of the cases that are timed, on their allotted rays. If two structures on a workload
-    /// are timed on different numbers of rays, the faster one also has times on the rays of the slower one.
+    /// Takes interleaved samples. A fast structure also has times on the rays of each slower structure on the workload.
     ///
-    /// A runner's cost per ray is unknown, so its measured time chooses its number of rays. Epochs may differ by a
-    /// factor of four: all structures on the workload are therefore also timed on a quarter of the runner's rays.
+    /// The measured time of a runner chooses the number of rays, so epochs may differ by a factor of four. All
+    /// structures on the workload are therefore also timed on a quarter of the runner's rays.
     pub fn take(
         &self,
         allotment: &Allotment,
@@ -80,7 +77,7 @@ impl Timing<'_> {
         };
         let (mut passes, failures): (Vec<_>, Vec<_>) = timed.iter().map(pass).collect();
         let _pin = self.threads.pin();
-        // Use processor time if possible: it excludes the time of other processes on the core.
+        // Processor time excludes the time of other processes on the core.
         let own = CpuClock::Thread.on(self.threads);
         let clock = own.as_ref().map_or(self.clock, |clock| clock as &dyn Clock);
 
@@ -89,7 +86,8 @@ impl Timing<'_> {
         let is_remote = |built: &Built| built.accel.remote().is_some();
         let is_by_clock = |i: usize| built(i).is_some_and(|built| self.by_clock || is_remote(built));
         for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_by_clock(**i)) {
-            // A runner must fit into its share of the budget. Other cases get fewer rays if the prediction is far off.
+            // A runner must fit into its share of the budget. Structures in this process may exceed the share by the
+            // factor `SLACK`.
             let most_ns = if built(i).is_some_and(is_remote) { *share_ns } else { SLACK * share_ns };
             levels[i] = level_by_clock(&Stopwatch::new(clock), pass.as_mut(), levels[i], most_ns);
         }
@@ -110,7 +108,6 @@ impl Timing<'_> {
     }
 }
 
-/// Determines the rays on which a case is timed.
 struct TimedRays {
     workload: usize,
     /// Rays of the workload.
@@ -119,7 +116,7 @@ struct TimedRays {
     is_by_clock: bool,
 }
 
-/// Empty samples of `case`: for its rays, and for the rays of each slower case of its workload.
+/// Prepares samples for the rays of `case` and for the rays of each slower case on the workload.
 fn empty_samples(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     let own = Samples::none(case.all, case.level);
     let mut fewer = vec![];
@@ -132,7 +129,7 @@ fn empty_samples(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     fewer.retain(|&rays| rays < own.rays);
     fewer.sort_unstable_by(|a, b| b.cmp(a));
     fewer.dedup();
-    // If a clock chooses the timed rays, compute the checksum over a set of rays that is the same in all epochs.
+    // A clock may choose different rays in each epoch, so the checksum covers a fixed set of rays.
     let checksum_level = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.checksum_level };
     Samples { checksum_level, parts: fewer.into_iter().map(|rays| SubsetSamples { rays, ns: vec![] }).collect(), ..own }
 }
@@ -141,7 +138,6 @@ fn empty_samples(case: &TimedRays, cases: &[TimedRays]) -> Samples {
 mod tests {
     use super::*;
 
-    /// The sizes of the subsets of cases on two workloads.
     fn parts(cases: &[(usize, usize, bool)]) -> Vec<Vec<usize>> {
         let cases: Vec<TimedRays> = cases
             .iter()
@@ -160,7 +156,7 @@ mod tests {
     fn a_program_and_all_that_it_is_compared_with_are_timed_on_the_next_level_as_well() {
         let cases = [(0, 0, false), (0, 1, true), (0, 3, false), (1, 0, false)];
         assert_eq!(parts(&cases), [vec![16_384, 4096, 1024], vec![4096, 1024], vec![], vec![]]);
-        // The last level has no next one.
+        // The last level has no next level.
         assert_eq!(parts(&[(0, 0, false), (0, 5, true)]), [vec![64], vec![]]);
         let program = TimedRays { workload: 0, all: 65_536, level: 1, is_by_clock: true };
         assert_eq!(empty_samples(&program, &[]).checksum_level, Some(5));

@@ -1,4 +1,4 @@
-//! The findings: how much of the report is reproduced.
+//! Findings about how well the source report is reproduced.
 
 use super::original::{CROWDED, DEFAULT, MAIN};
 use super::replication::{BRUTE, Replicated, mean};
@@ -9,14 +9,13 @@ use crate::report::words::{interval, listed, slug};
 use crate::study::claims::CLAIMS;
 use crate::study::kendall::Order;
 
-/// The speedup by the SAH tree, the agreement of the ray counts with the report, and the values that claims judge.
 pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
     let mut findings: Vec<Finding> = [faster(hard), rays(main)].into_iter().flatten().collect();
     let number =
         |key: &str, own: &Replicated, value| Finding::number(format!("{key}-{}", slug(own.report.scene)), value);
     findings.extend(hard.iter().map(|own| number("hard", own, own.faster())));
     let difference = |own: &Replicated| Estimate::exact(own.total() as f64 - own.report.rays as f64);
-    // The creatures of Starters must not be copied: this project uses different creatures, so the ray counts differ.
+    // The creatures of Starters must not be copied. This project uses different creatures, so the ray counts differ.
     let theirs = main.iter().filter(|own| own.report.scene != "Starters");
     findings.extend(theirs.map(|own| number("rays", own, difference(own))));
     findings.extend(t_prime(main).map(|factor| Finding::number("t-prime", factor)));
@@ -33,26 +32,27 @@ fn faster(hard: &[Replicated]) -> Option<Finding> {
     let on_scene = |own: &Replicated| format!("{} on {}", interval(own.faster()), own.first().title());
     let scenes = listed(&hard.iter().map(on_scene).collect::<Vec<_>>());
     let mean = mean(hard)?;
-    let told = match () {
+    let comparison = match () {
         () if mean.is_above(1.0) => "faster than",
         () if mean.holds(1.0) => "at a speed that is not distinguishable from the speed of",
         () => "more slowly than",
     };
     let times = interval(mean);
-    let sentence =
-        format!("The SAH tree traces primary rays {told} the report's tree: speedup {scenes}; geometric mean {times}.");
+    let sentence = format!(
+        "The SAH tree traces primary rays {comparison} the report's tree: speedup {scenes}; geometric mean {times}."
+    );
     Some(Finding::new("hard", sentence).with_value(mean))
 }
 
-/// Ray counts match if they differ by at most this number: a few hits at triangle edges may differ.
+/// The tolerance of ray counts. A few hits at triangle edges may differ.
 const CLOSE: u64 = 2;
 
 fn rays(main: &[Replicated]) -> Option<Finding> {
     let off = |own: &Replicated| own.total().abs_diff(own.report.rays);
-    let told = |own: &Replicated| {
+    let phrase = |own: &Replicated| {
         format!("{} is off by {} of {}", own.first().title(), count(off(own)), count(own.report.rays))
     };
-    let far: Vec<String> = main.iter().filter(|own| off(own) > CLOSE).map(told).collect();
+    let far: Vec<String> = main.iter().filter(|own| off(own) > CLOSE).map(phrase).collect();
     let exceptions = if far.is_empty() { String::new() } else { format!("; {}", listed(&far)) };
     let (close, all) = (main.len() - far.len(), plural(main.len(), "scene"));
     let sentence = format!(
@@ -61,7 +61,7 @@ fn rays(main: &[Replicated]) -> Option<Finding> {
     (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
 
-/// Largest `t'` of brute force / smallest `t'`, over the scenes of [`MAIN`]. `None` if a scene is missing.
+/// Largest `t'` of brute force / smallest `t'`, over the scenes of [`MAIN`].
 fn t_prime(main: &[Replicated]) -> Option<Estimate> {
     let all: Vec<Estimate> = main.iter().filter_map(|own| own.t_prime(BRUTE)).collect();
     let by_size = |one: &&Estimate, other: &&Estimate| one.estimate.total_cmp(&other.estimate);
@@ -72,7 +72,6 @@ fn t_prime(main: &[Replicated]) -> Option<Estimate> {
 /// The scenes in the expected order, largest improvement first. The first two are not compared with each other.
 const ORDER: &str = "Torus Sphere Teapot Metallic Cornellbox Starters Billards Infinitycandy Cube";
 
-/// The agreement of the improvements with the expected order. `None` if a scene is missing.
 fn order(main: &[Replicated]) -> Option<Finding> {
     let improvement = |name: &str| main.iter().find(|own| own.report.scene == name)?.improvement();
     let names: Vec<&str> = ORDER.split(' ').collect();
@@ -81,9 +80,9 @@ fn order(main: &[Replicated]) -> Option<Finding> {
     let reversed = order.reversed.iter().map(|&[more, less]| [names[more], names[less]].join(" improves less than "));
     let reversed = listed(&reversed.collect::<Vec<_>>());
     let expected = names.join(" > ").replacen('>', "~", 1);
-    let told = format!(
+    let sentence = format!(
         "The expected order of the improvements over brute force is {expected}. Significantly out of this order: \
          {reversed}."
     );
-    Some(Finding::new("order", if reversed.is_empty() { String::new() } else { told }).with_value(order.tau))
+    Some(Finding::new("order", if reversed.is_empty() { String::new() } else { sentence }).with_value(order.tau))
 }

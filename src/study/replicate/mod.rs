@@ -1,7 +1,7 @@
-//! `replicate`: reproduces the source report's tables and tests its conclusion.
+//! `replicate` reproduces the tables of the source report and tests its conclusion.
 //!
-//! The report times all rays of a picture, without the build, on another machine. Only ratios of its seconds can be
-//! compared with ratios measured here. `t'` is seconds / (rays x triangles).
+//! The report times all rays of a picture on another machine. So only ratios of seconds are comparable with this study.
+//! `t'` is seconds / (rays x triangles).
 
 mod findings;
 mod original;
@@ -32,17 +32,17 @@ pub const STUDY: Study = Study {
     report,
 };
 
-// The default epochs, runs and budget (s). All claims are judged together, which needs many epochs.
+// The defaults of epochs, runs and budget in seconds. All claims are judged together, which needs many epochs.
 type Options = Measuring<8, 3, 5>;
 
-/// The structure whose hits are the origins of secondary rays. Its triangle test is in single precision, as in the
-/// report's program. The exact test decides edges differently, which changes a few rays.
+/// Secondary rays start at the hits of this structure. The triangle test is in single precision, as in the report's
+/// program.
 const GUIDE: &str = "sah-kd:test=moller-trumbore";
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let measuring = Options::from_arg_matches(matches)?;
-    let guide = registry.choose(GUIDE)?.label;
-    let settings = Settings { whole: true, guide, ..Settings::new(&measuring, registry)? };
+    let secondary_ray_structure = registry.choose(GUIDE)?.label;
+    let settings = Settings { whole: true, secondary_ray_structure, ..Settings::new(&measuring, registry)? };
     let rows: Vec<&Row> = MAIN.iter().chain(&HARD).collect();
     let scenes = Scenes::default().read(registry, &rows.iter().map(|row| row.scene).collect::<Vec<_>>())?;
     let planned = |(own, row): (&(OsString, Scene), &&Row)| {

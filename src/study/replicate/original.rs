@@ -1,4 +1,6 @@
-//! The numbers in the source report: single runs of its program on its machine.
+//! The numbers in the source report.
+//!
+//! Each time in the report is from a single run.
 
 use crate::request::REPORT_TREE;
 
@@ -6,15 +8,15 @@ use crate::request::REPORT_TREE;
 pub struct Row {
     pub scene: &'static str,
     pub triangles: usize,
-    /// All rays of the picture; on a hard scene only the primary rays.
+    /// All rays of the picture, or only the primary rays on a hard scene.
     pub rays: u64,
-    /// Seconds with the tree, without the build. L is 100 and T is 0.7 ([`SweepRow`]).
+    /// Seconds with the setting [`DEFAULT`] of the tree, without the build.
     pub tree_s: f64,
-    /// Seconds with brute force, and the improvement (brute force / tree) as printed. `None` on a hard scene. The
-    /// printed improvement of Teapot is wrong: it should be 23.776.
+    /// `None` on a hard scene, like `improvement`. The improvement is brute force / tree, as printed. The printed
+    /// improvement of Teapot is wrong.
     pub brute_s: Option<f64>,
     pub improvement: Option<f64>,
-    /// Seconds of the build; only on a hard scene.
+    /// Seconds of the build. `None` on an easy scene.
     pub build_s: Option<f64>,
 }
 
@@ -45,18 +47,18 @@ pub const HARD: [Row; 3] = [
     hard("Sponza", 174_840, 239.7165, 3.628),
 ];
 
-/// A setting of the report's tree and its seconds on the scenes of [`MAIN`], in order.
+/// A setting of the report's tree, and the seconds on the scenes of [`MAIN`], in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweepRow {
-    /// L: a node with fewer triangles is a leaf.
+    /// A node with fewer triangles is a leaf.
     pub leaf: u32,
-    /// T: a split is discarded if at least this fraction of the triangles would be in both children.
+    /// A split is discarded if at least this fraction of the triangles is in both children.
     pub threshold: f32,
     pub seconds: [f64; 9],
 }
 
-/// The report's sweep over settings. Its columns Teapot and Torus are swapped in print and corrected here. The row 100
-/// / 0.7 is the setting of the main table, but its seconds differ, because both are single runs.
+/// The columns Teapot and Torus are swapped in the report and corrected here. The seconds of 100 / 0.7 differ from the
+/// main table, because all times are single runs.
 pub const SWEEP: [SweepRow; 6] = [
     sweep(25, 0.4, [0.527, 1.405, 2.734, 6.897, 138.3193, 54.305, 65.218, 57.408, 50.229]),
     sweep(50, 0.5, [0.543, 1.319, 3.157, 7.730, 132.452, 45.076, 61.802, 54.773, 46.709]),
@@ -69,7 +71,7 @@ pub const SWEEP: [SweepRow; 6] = [
 /// The setting of the main table. It is the default of the structure [`REPORT_TREE`].
 pub const DEFAULT: SweepRow = SWEEP[4];
 
-/// The scene whose triangles the tree hardly separates, and the setting expected to need more tests than brute force.
+/// The tree hardly separates the triangles of this scene. The setting is expected to need more tests than brute force.
 pub const CROWDED: (&str, SweepRow) = ("Infinitycandy", SWEEP[2]);
 
 const fn sweep(leaf: u32, threshold: f32, seconds: [f64; 9]) -> SweepRow {
@@ -77,17 +79,14 @@ const fn sweep(leaf: u32, threshold: f32, seconds: [f64; 9]) -> SweepRow {
 }
 
 impl SweepRow {
-    /// The name in tables and the role of the structure, such as `100 / 0.7`.
     pub fn role(&self) -> String {
         format!("{} / {}", self.leaf, self.threshold)
     }
 
-    /// The report's seconds on this scene of [`MAIN`].
     pub fn of(&self, scene: &str) -> Option<f64> {
         MAIN.iter().position(|row| row.scene == scene).map(|place| self.seconds[place])
     }
 
-    /// The label of the structure in the registry.
     pub fn spec(&self) -> String {
         if *self == DEFAULT {
             return REPORT_TREE.into();
@@ -101,7 +100,6 @@ impl Row {
         self.build_s.is_some()
     }
 
-    /// `t'` for the report's seconds: seconds / (rays x triangles).
     pub fn t_prime(&self, seconds: f64) -> f64 {
         seconds / (self.rays as f64 * self.triangles as f64)
     }
@@ -115,7 +113,7 @@ mod tests {
     fn the_printed_improvements_and_t_primes_follow_from_the_seconds() {
         for row in &MAIN {
             let (brute_s, improvement) = row.brute_s.zip(row.improvement).unwrap();
-            // The last two digits of Teapot are a misprint; all others are truncated or rounded.
+            // The last two digits of Teapot are a misprint. All other improvements are truncated or rounded.
             let tolerance = if row.scene == "Teapot" { 0.0045 } else { 0.0011 };
             assert!((brute_s / row.tree_s - improvement).abs() < tolerance, "{row:?}");
         }

@@ -8,10 +8,10 @@ use crate::study::epoch::{Rays, Structure};
 use crate::study::epoch_medians::{epoch_medians, ratio, values};
 use crate::study::{Dataset, Epoch};
 
-/// Roles of structures. Each setting of the sweep has a separate [role](original::SweepRow::role).
+/// Roles of structures. Each setting of the sweep has a separate role.
 pub const BRUTE: &str = "brute force";
 pub const SAH: &str = "sah";
-/// The report's tree on a hard scene. On an easy scene the tree has the role of its setting in the sweep.
+/// The role of the report's tree on a hard scene. On an easy scene, the tree has the role of a sweep setting.
 pub const TREE: &str = "tree";
 
 pub struct Replicated<'a> {
@@ -19,7 +19,7 @@ pub struct Replicated<'a> {
     epochs: Vec<&'a Epoch>,
 }
 
-/// The measured scenes of the report, the hard ones last.
+/// The hard scenes are last.
 pub fn replicated(dataset: &Dataset) -> Vec<Replicated<'_>> {
     let scenes = dataset.scenes();
     let of = |report: &'static Row| {
@@ -29,12 +29,12 @@ pub fn replicated(dataset: &Dataset) -> Vec<Replicated<'_>> {
     MAIN.iter().chain(&HARD).flat_map(of).collect()
 }
 
-/// Speedup by the SAH tree: the geometric mean over the measured hard scenes.
+/// The geometric mean over the hard scenes of the speedups by the SAH tree.
 pub fn mean(hard: &[Replicated]) -> Option<Estimate> {
     let ratios = |other: &str| hard.iter().map(|own| own.log_ratios(other)).collect::<Vec<_>>();
     let noise = AaNoise::new(&ratios(TWIN)).of_mean(hard.len());
     let mut ratios = ratios(SAH);
-    // After an interrupted run, some scenes lack an epoch: use only the epochs that all scenes have.
+    // After an interrupted run, some scenes lack an epoch.
     cut_to_shared_epochs(&mut ratios);
     Some(Rerun::of(&epoch_values(&ratios)?, noise)?.ratio())
 }
@@ -44,11 +44,11 @@ impl Replicated<'_> {
         self.epochs[0]
     }
 
-    /// Rays of a 512 x 512 picture: primary, mirror and shadow rays.
+    /// The numbers of primary, mirror and shadow rays of a 512 x 512 picture.
     pub fn rays(&self) -> [u64; 3] {
         let all = |query| {
-            let asked = self.first().structures[0].rays.iter().filter(|rays| rays.query == query);
-            asked.map(|rays| rays.all as u64).sum::<u64>()
+            let of_query = self.first().structures[0].rays.iter().filter(|rays| rays.query == query);
+            of_query.map(|rays| rays.all as u64).sum::<u64>()
         };
         let closest = all(Query::Closest);
         // Each pixel has one primary ray.
@@ -60,15 +60,14 @@ impl Replicated<'_> {
         self.rays().iter().sum()
     }
 
-    /// The structure in this role.
     fn structure<'a>(&self, epoch: &'a Epoch, role: &str) -> Option<&'a Structure> {
         let is_setting = role == TREE && !self.report.is_hard();
         let role = if is_setting { DEFAULT.role() } else { role.to_owned() };
         epoch.structures.iter().find(|own| own.role == role)
     }
 
-    /// ln(seconds) for all rays, by epoch and role. Each workload is extrapolated from the rays on which the structures
-    /// of all `roles` were timed.
+    /// ln(seconds) for all rays, by epoch and role. The times are extrapolated from the rays on which all `roles` were
+    /// timed.
     fn medians(&self, roles: &[&str]) -> Vec<Vec<f64>> {
         let of_epoch = |epoch: &&Epoch| {
             let in_role =
@@ -89,18 +88,17 @@ impl Replicated<'_> {
         AaNoise::new(&[self.log_ratios(TWIN)])
     }
 
-    /// Seconds with the structure in the role `one` / seconds with the structure in the role `other`.
+    /// Seconds with `one` / seconds with `other`.
     fn ratio(&self, one: &str, other: &str) -> Estimate {
         ratio(&self.medians(&[one, other]), |logs| logs[0] - logs[1], self.noise().of_ratio())
     }
 
-    /// Seconds for the picture with the structure in this role: the geometric mean over the epochs.
+    /// The geometric mean over the epochs of the seconds for the picture.
     pub fn seconds(&self, role: &str) -> Option<Estimate> {
         self.structure(self.first(), role)?;
         Some(ratio(&self.medians(&[role]), |logs| logs[0], self.noise().weighted(&[1.0])))
     }
 
-    /// `t'`: seconds / (rays x triangles).
     pub fn t_prime(&self, role: &str) -> Option<Estimate> {
         let rays_and_triangles = self.total() as f64 * self.first().triangles as f64;
         Some(self.seconds(role)?.map(|seconds| seconds / rays_and_triangles))
@@ -111,31 +109,28 @@ impl Replicated<'_> {
         Some(self.structure(self.first(), role)?.rays.iter().any(|rays| rays.rays < rays.all))
     }
 
-    /// Build time in seconds, the median over the epochs.
     pub fn build_s(&self, role: &str) -> Option<f64> {
         let builds = self.epochs.iter().filter_map(|epoch| Some(self.structure(epoch, role)?.build_ns as f64));
         Some(median(&builds.collect::<Vec<_>>())? * 1e-9)
     }
 
-    /// Triangle tests per ray and triangle; `None` if not counted.
+    /// Triangle tests per ray and triangle.
     pub fn tests(&self, role: &str) -> Option<f64> {
         let rays = &self.structure(self.first(), role)?.rays;
         let tests: u64 = rays.iter().map(|rays| rays.counts?.whole_tests).sum::<Option<_>>()?;
         Some(tests as f64 / (self.total() as f64 * self.first().triangles as f64))
     }
 
-    /// Seconds with brute force / seconds with the report's tree; `None` on hard scenes.
     pub fn improvement(&self) -> Option<Estimate> {
         (!self.report.is_hard()).then(|| self.ratio(BRUTE, TREE))
     }
 
-    /// Seconds with the report's tree / seconds with the SAH tree.
     pub fn faster(&self) -> Estimate {
         self.ratio(TREE, SAH)
     }
 }
 
-/// ln(seconds) of a structure for all rays, by round. Extrapolates from the rays on which all of `beside` were timed.
+/// ln(seconds) for all rays, by round. The times are extrapolated from the rays on which all `beside` were timed.
 fn log_seconds(structure: &Structure, beside: &[&Structure]) -> Vec<f64> {
     let seconds = |(kind, rays): (usize, &Rays)| {
         let common = beside.iter().map(|other| other.rays[kind].rays).min().unwrap_or(rays.rays);

@@ -1,10 +1,10 @@
-//! The tables of the study.
+//! The tables of the study `replicate`.
 
 use super::original::SWEEP;
 use super::replication::{BRUTE, Replicated, SAH, TREE};
 use crate::report::{Cell, Table, Value};
 
-/// The tables in the order of the report; `all` are the `main` scenes, then the `hard` ones.
+/// `all` contains the `main` scenes, then the `hard` scenes.
 pub fn tables(all: &[Replicated], main: &[Replicated], hard: &[Replicated]) -> Vec<Table> {
     let note = "~: extrapolated from a subset of the rays. improvement: brute-force / median-kd; times faster: \
                 median-kd / sah-kd; both from times of one round.";
@@ -13,7 +13,7 @@ pub fn tables(all: &[Replicated], main: &[Replicated], hard: &[Replicated]) -> V
     let hard = table("Hard scenes: seconds for the primary rays, without construction", hard, &SECONDS).noted([note]);
     let t_primes = table("t' = seconds / (rays x triangles)", all, &T_PRIMES);
     let all = [rays(all), easy, t_primes, settings(main), hard];
-    all.into_iter().filter(Table::has_values).map(Table::explained).collect()
+    all.into_iter().filter(Table::has_values).map(Table::with_interval_note).collect()
 }
 
 fn rays(all: &[Replicated]) -> Table {
@@ -37,13 +37,12 @@ fn rays(all: &[Replicated]) -> Table {
     ])
 }
 
-/// Seconds with the structure in this role, marked if only a subset of the rays was timed.
 fn seconds(own: &Replicated, role: &str) -> Cell {
     let seconds = own.seconds(role).map(|seconds| seconds.estimate);
     Cell::from(seconds).sampled(own.is_sampled(role) == Some(true))
 }
 
-/// A column: its heading, its name in CSV tables, and its cell for a scene.
+/// The heading of a column, the name in CSV tables, and the cell of a scene.
 type ReplicatedColumn = (&'static str, &'static str, fn(&Replicated) -> Cell);
 
 const SECONDS: [ReplicatedColumn; 12] = [
@@ -69,7 +68,6 @@ const T_PRIMES: [ReplicatedColumn; 5] = [
     ("sah-kd", "sah_t_prime", |own| own.t_prime(SAH).into()),
 ];
 
-/// One row per scene. Columns that are empty for all scenes are left out.
 fn table(title: &str, scenes: &[Replicated], columns: &[ReplicatedColumn]) -> Table {
     let mut table = Table::of(title, scenes, &[("scene", &|own| own.first().title().into())]);
     columns.iter().for_each(|(name, _, cell)| table.push_column(*name, scenes.iter().map(cell)));

@@ -8,8 +8,8 @@ use crate::study::epoch::Rays;
 use crate::study::epoch::tests::{example, rays};
 use crate::study::{Measured, case};
 
-/// Epochs of a scene of 100 triangles with 1000 closest-hit rays and 500 shadow rays. The structure in each role takes
-/// the given nanoseconds per ray. One of the rounds is slow.
+/// The scene has 100 triangles, 1000 closest-hit rays and 500 shadow rays. Each role has a time in nanoseconds per ray.
+/// One of the rounds is slow.
 fn scene(name: &str, epochs: usize, roles: &[(&str, u64)]) -> Vec<Measured> {
     let one = |number: usize| {
         let ns: Vec<Vec<u64>> = roles.iter().map(|(_, t)| [1000, 1300, 1000].map(|round| round * t).into()).collect();
@@ -25,12 +25,10 @@ fn scene(name: &str, epochs: usize, roles: &[(&str, u64)]) -> Vec<Measured> {
     (0..epochs).map(one).collect()
 }
 
-/// A hard scene with the times of the report's tree, the SAH tree and the twin.
 fn hard(name: &str, epochs: usize, [tree, sah, twin]: [u64; 3]) -> Vec<Measured> {
     scene(name, epochs, &[(TREE, tree), (SAH, sah), (TWIN, twin)])
 }
 
-/// An easy scene in which brute force takes `improvement` times as long as the report's tree.
 fn main(name: &str, improvement: u64) -> Vec<Measured> {
     let roles: Vec<String> = SWEEP.iter().map(|row| row.role()).collect();
     let mut times = vec![(BRUTE, 300 * improvement), (SAH, 10)];
@@ -73,16 +71,16 @@ fn the_conclusion_is_the_mean_of_the_hard_scenes() {
 
 #[test]
 fn what_is_said_of_the_hard_scenes_is_what_was_found() {
-    for (times, told) in [
+    for (times, phrase) in [
         ([800, 100, 800], "faster than"),
         ([100, 800, 100], "more slowly than"),
         ([101, 100, 180], "at a speed that is not distinguishable"),
     ] {
         let report = of(&[hard("Dragon", 3, times)]);
         let sentence = report.sentences().next().unwrap();
-        assert!(sentence.starts_with(&format!("The SAH tree traces primary rays {told}")), "{sentence}");
+        assert!(sentence.starts_with(&format!("The SAH tree traces primary rays {phrase}")), "{sentence}");
     }
-    // Twins with different times widen the interval. This run and a rerun each add the noise of one A/A ratio; with
+    // Twins with different times widen the interval. This run and a rerun each add the noise of one A/A ratio. With
     // three epochs, Student's t is 4.303.
     let width = |twin: u64| {
         let faster = value(&of(&[hard("Sponza", 3, [800, 100, twin])]), "hard-sponza").unwrap();
@@ -126,12 +124,12 @@ fn claims_about_all_scenes_are_judged_with_all_scenes() {
     let exact = |x: f64| Some(Estimate::exact(x));
     assert_eq!((value(&report, "crowded"), value(&report, "crowded-50")), (exact(1.0), exact(2.4)));
     assert!((value(&report, "t-prime").unwrap().estimate - 45.0).abs() < 1e-9);
-    // Of the 35 pairs of scenes, the eight pairs with Cube are reversed.
+    // The eight pairs with Cube are reversed, among 35 compared pairs of scenes.
     let order = value(&report, "order").unwrap();
     assert!((order.estimate - (1.0 - 16.0 / 35.0)).abs() < 1e-12, "{order:?}");
-    let told = &report.finding("order").unwrap().sentence;
+    let sentence = &report.finding("order").unwrap().sentence;
     for part in ["Significantly out of this order", "Infinitycandy improves less than Cube"] {
-        assert!(told.contains(part), "{told}");
+        assert!(sentence.contains(part), "{sentence}");
     }
     assert_eq!(report.verdicts.len(), 12);
     assert!(report.verdicts.iter().all(|verdict| verdict.value.is_some()));

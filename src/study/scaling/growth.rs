@@ -1,28 +1,24 @@
-//! Powers of the number of triangles, fitted to the measurements.
+//! Fits powers of the number of triangles to the measurements.
 
 use crate::measure::{AaNoise, Estimate, Rerun, Variance};
 use crate::report::words::each_once;
 use crate::study::Dataset;
 use crate::study::measurement::{Measurement, build_noise, measurements, of_scene, trace_noise};
 
-/// Names of the labels of a case: the family of its mesh, and the level of an icosphere.
+/// Labels of a case name the family of the mesh and the level of the icosphere.
 pub const FAMILY: &str = "family";
 pub const LEVEL: &str = "level";
 
-/// One sphere at several subdivision levels.
 pub const SPHERES: &str = "icospheres";
 
-/// Different meshes.
 pub const MESHES: &str = "meshes";
 
 /// The number of triangles of the icosphere of level 8.
 pub const LEVEL_8: usize = 20 << 16;
 
-/// The growth of one structure on one family and one workload.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
     pub family: &'static str,
-    /// The name of the structure, with the keys that differ from their defaults.
     pub label: String,
     pub workload: String,
     /// Ordered by number of triangles.
@@ -31,17 +27,15 @@ pub struct Growth {
     pub time: Option<Estimate>,
     /// Like `time`, but over the meshes of at most [`LEVEL_8`] triangles. The claims are about these meshes.
     pub time_to_level_8: Option<Estimate>,
-    /// The exponent of the build time.
     pub build: Option<Estimate>,
-    /// The exponent of the memory.
     pub bytes: Option<Estimate>,
-    /// The exponent of triangle tests per ray, which are the same on every machine.
+    /// The exponent of triangle tests per ray.
     pub tests: Option<Estimate>,
     /// The exponent of inner nodes and leaves entered per ray.
     pub steps: Option<Estimate>,
 }
 
-/// One structure on one mesh. Times are geometric means over the epochs.
+/// Times are geometric means over the epochs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     pub measurement: Measurement,
@@ -50,7 +44,6 @@ pub struct Point {
 }
 
 impl Point {
-    /// `None` without a time.
     fn new(measurement: Measurement) -> Option<Self> {
         let mean = |logs: Vec<f64>| libm::exp(logs.iter().sum::<f64>() / logs.len() as f64);
         let (ns_per_ray, build_ns) = (mean(measurement.log_paces()?), mean(measurement.log_builds()));
@@ -61,7 +54,7 @@ impl Point {
         self.measurement.triangles
     }
 
-    /// Whether the fit includes this point: the structure has more than one leaf.
+    /// A structure with a single leaf is brute force, so the fit omits the point.
     pub fn is_fitted(&self) -> bool {
         self.measurement.shape.leaves > 1
     }
@@ -71,7 +64,7 @@ impl Point {
     }
 }
 
-/// The growth of every structure, by family and workload. The intervals predict a rerun.
+/// The intervals predict a rerun.
 pub fn growths(dataset: &Dataset) -> Vec<Growth> {
     let all = measurements(dataset);
     let noises = [trace_noise(&all), build_noise(&all)];
@@ -94,7 +87,7 @@ pub fn growths(dataset: &Dataset) -> Vec<Growth> {
     growths
 }
 
-/// The growth over points ordered by number of triangles, with the A/A noise of traces and of builds.
+/// `points` must be in the order of the number of triangles.
 fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2]) -> Growth {
     let fitted: Vec<&Point> = points.iter().filter(|point| point.is_fitted()).collect();
     let coarser: Vec<&Point> = fitted.iter().copied().filter(|point| point.triangles() <= LEVEL_8).collect();
@@ -120,8 +113,8 @@ fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2
     }
 }
 
-/// The slope over ln(triangles) of the logarithms that `value` returns by epoch. `noise` receives the weights of a sum
-/// and returns the variance that the A/A noise adds. `None` if a value is unknown or there are fewer than three meshes.
+/// Fits a line to the logarithms from `value` over ln(triangles), for each epoch. `noise` returns the variance that the
+/// A/A noise adds to a weighted sum.
 fn power(
     points: &[&Point],
     value: &dyn Fn(&Measurement) -> Option<Vec<f64>>,
@@ -130,13 +123,12 @@ fn power(
     let values: Vec<Vec<f64>> = points.iter().map(|point| value(&point.measurement)).collect::<Option<_>>()?;
     let places: Vec<f64> = points.iter().map(|point| libm::log(point.triangles() as f64)).collect();
     let weights = slope_weights(&places).filter(|weights| weights.len() > 2)?;
-    // Use only the epochs that all meshes have.
     let epochs = values.iter().map(Vec::len).min()?;
     let slope = |e: usize| weights.iter().zip(&values).map(|(weight, logs)| weight * logs[e]).sum();
     Rerun::of(&(0..epochs).map(slope).collect::<Vec<f64>>(), noise(&weights))
 }
 
-/// The weights `w` for which the sum of `w * y` is the least-squares slope over `x`. `None` if all `x` are equal.
+/// The weights `w` for which the sum of `w * y` is the least-squares slope over `x`.
 fn slope_weights(x: &[f64]) -> Option<Vec<f64>> {
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let squares: f64 = x.iter().map(|x| (x - mean) * (x - mean)).sum();

@@ -1,8 +1,7 @@
-//! `scaling`: how do time, build and memory grow with the number of triangles?
+//! `scaling` measures how time, build and memory grow with the number of triangles.
 //!
-//! The icospheres have 20 triangles or more and the same view: only the subdivision of the surface changes. Other
-//! meshes differ in more than their size, so their exponent is less meaningful. Powers are fitted to logarithms. The
-//! fit omits meshes on which the structure is a single leaf, because a single leaf is brute force.
+//! All icospheres have the same view, so only the number of triangles changes. Other meshes differ in more than size,
+//! so the exponents are less meaningful.
 
 mod growth;
 mod section;
@@ -36,7 +35,7 @@ pub const STUDY: Study = Study {
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 
-/// The default of `--finest`. The claims need level 8. All default structures together then take about 1 GB.
+/// The default of `--finest`. The claims need level 8.
 const FINEST_BY_DEFAULT: u32 = 8;
 
 #[derive(Clone, Debug, clap::Args)]
@@ -52,7 +51,7 @@ struct ScalingArgs {
     structures: Structures,
     #[command(flatten)]
     rays: Rays,
-    // The default epochs, runs and budget (s). All claims are judged together, which needs many epochs.
+    // The defaults of epochs, runs and budget in seconds. All claims are judged together, which needs many epochs.
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }
@@ -62,7 +61,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
     let workloads = args.rays.request(&[WorkloadKind::Primary, WorkloadKind::Random]);
     let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&args.measuring, registry)? };
-    // Read the meshes before the spheres, because a mesh file may be missing.
+    // A mesh file may be missing, so meshes are read before the spheres.
     let meshes = args.scenes.read(registry, &["dragon", "lucy", "sponza"])?;
     let spheres = Scenes { scenes: (0..=args.finest).map(|level| format!("icosphere:{level}").into()).collect() };
     let spheres = spheres.read(registry, &[])?;

@@ -1,4 +1,4 @@
-//! How time, build and memory grow with the number of triangles: sentences, charts and tables.
+//! Writes the sentences, charts and tables of the study `scaling`.
 
 use super::growth::{Growth, LEVEL_8, MESHES, Point, SPHERES};
 use crate::measure::Estimate;
@@ -42,7 +42,6 @@ const MEMORY: Quantity = Quantity {
     power: |growth| growth.bytes,
 };
 
-/// The growth of the time of a primary ray on the spheres, with the report's tree and with the SAH tree.
 pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let of = |label: &str| {
         let primary = WorkloadKind::Primary.name();
@@ -58,7 +57,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let sentence = format!("On spheres of n triangles the time of a primary ray grows like {}.", listed(&powers));
     let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
     let spheres = first.map(|power| Finding::new("spheres", sentence).with_value(power));
-    // The claims are about spheres up to level 8: a run without level 8 cannot decide them.
+    // The claims are about spheres up to level 8. A run without level 8 decides no claim.
     let claimed = both.iter().filter_map(|(key, growth)| {
         let growth = growth.filter(|growth| growth.points.iter().any(|point| point.triangles() >= LEVEL_8))?;
         Some(Finding::number(*key, growth.time_to_level_8?))
@@ -66,7 +65,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     spheres.into_iter().chain(claimed).collect()
 }
 
-/// The smallest and the largest number of triangles in the fit: `20 to 1,280`.
+/// Formats the range of triangles in the fit, such as `20 to 1,280`.
 fn ends(growth: &Growth) -> Option<String> {
     let fitted = || growth.points.iter().filter(|point| point.is_fitted()).map(|point| count(point.triangles() as u64));
     Some(format!("{} to {}", fitted().next()?, fitted().next_back()?))
@@ -82,7 +81,7 @@ pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     let mut blocks = vec![Block::Text(text.into())];
     let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
     blocks.extend(spheres.clone().map(|group| Block::figure(figure(group, &TIME))));
-    // Build time and memory do not depend on the workload: draw them once.
+    // Build time and memory do not depend on the workload, so the figures of one workload are enough.
     let quantities = if first[0].family == MESHES { &[][..] } else { &[BUILD, MEMORY] };
     blocks.extend(quantities.iter().map(|quantity| Block::figure(figure(first, quantity))));
     let families: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family).collect();
@@ -100,11 +99,11 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
         let note = power.unwrap_or_default();
         Line { label: growth.label.clone(), note, points: growth.points.iter().map(point).collect() }
     };
-    let told = |growth: &Growth| {
+    let phrase = |growth: &Growth| {
         let power = (quantity.power)(growth)?;
         Some(format!("{}: exponent {}", growth.label, written(power, |x| format!("{x:.2}"))))
     };
-    let told: Vec<String> = group.iter().filter_map(told).collect();
+    let phrases: Vec<String> = group.iter().filter_map(phrase).collect();
     let rays = if quantity.id == TIME.id { format!(" {} rays;", first.workload) } else { String::new() };
     let lines = group.iter().map(line).collect();
     Figure {
@@ -114,7 +113,7 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
              exponent.",
             quantity.words, first.family,
         ),
-        alt: format!("Line chart over the number of triangles. {}.", told.join("; ")),
+        alt: format!("Line chart over the number of triangles. {}.", phrases.join("; ")),
         art: Art::Chart(Chart::Curves(Curves { x_title: "triangles".into(), y_title: quantity.y_title.into(), lines })),
         data: Table::of(
             "",
@@ -128,12 +127,10 @@ fn figure(group: &[Growth], quantity: &Quantity) -> Figure {
     }
 }
 
-/// Every point, with the growth that contains it.
 fn all_points(growths: &[Growth]) -> impl Iterator<Item = (&Growth, &Point)> {
     growths.iter().flat_map(|growth| growth.points.iter().map(move |point| (growth, point)))
 }
 
-/// The table of exponents; `None` with too few meshes for an exponent.
 fn exponents(family: &[Growth]) -> Option<Table> {
     let power = |x: Option<Estimate>| Cell::from(x.map(|x| Cell::estimate(x, Format::Decimals(2))));
     let over = |growth: &Growth| {
@@ -156,7 +153,7 @@ fn exponents(family: &[Growth]) -> Option<Table> {
     );
     let note = "Least squares on logarithms over the meshes on which the structure has more than one leaf, with 95 % \
                 intervals for a rerun on these meshes; counts and memory do not vary.";
-    family.iter().any(|growth| growth.time.is_some()).then(|| table.noted([note]).explained())
+    family.iter().any(|growth| growth.time.is_some()).then(|| table.noted([note]).with_interval_note())
 }
 
 fn points(family: &[Growth]) -> Table {
@@ -181,7 +178,6 @@ fn points(family: &[Growth]) -> Table {
     )
 }
 
-/// One row per structure on each mesh and workload.
 pub fn data(growths: &[Growth]) -> Table {
     let mut table = Table::of(
         "",

@@ -6,7 +6,6 @@ use crate::study::dataset::tests::dataset;
 use crate::study::epoch::Rays;
 use crate::study::epoch::tests::example;
 
-/// One epoch of `sah-kd` over `n` triangles.
 fn measured(family: &str, n: usize, epoch: usize, build_ns: u64, ns: &[u64]) -> Measured {
     let scene = format!("mesh {n}");
     let mut case = case(&scene, epoch, &["sah-kd"]);
@@ -16,7 +15,7 @@ fn measured(family: &str, n: usize, epoch: usize, build_ns: u64, ns: &[u64]) -> 
 
 const TRIANGLES: [usize; 4] = [100, 400, 1600, 6400];
 
-/// Two epochs on meshes of n triangles. A ray takes 2 us x n^b and a build 1 ms x n^c; `wobble` varies both by epoch.
+/// A ray takes 2 us x n^b, and a build takes 1 ms x n^c. `wobble` varies all times by epoch.
 fn spheres(b: f64, c: f64, wobble: f64) -> Vec<Measured> {
     let mut all = vec![];
     for (i, n) in TRIANGLES.into_iter().enumerate() {
@@ -30,7 +29,6 @@ fn spheres(b: f64, c: f64, wobble: f64) -> Vec<Measured> {
     all
 }
 
-/// Two epochs of a sphere with `triangles` triangles. A build and a sample take about `ns`.
 fn finest_of(triangles: usize, ns: u64) -> impl Iterator<Item = Measured> {
     (0..2).map(move |epoch| measured(SPHERES, triangles, epoch, ns, &[ns + epoch as u64; 3]))
 }
@@ -45,7 +43,6 @@ fn a_power_is_found_where_there_is_one() {
     let (time, build, bytes) = (growth.time.unwrap(), growth.build.unwrap(), growth.bytes.unwrap());
     assert!((time.estimate - 0.25).abs() < 1e-3 && time.high().unwrap() - time.low().unwrap() < 1e-3, "{time:?}");
     assert!((build.estimate - 1.1).abs() < 1e-3, "{build:?}");
-    // Noise widens the interval.
     let noisy = one(spheres(0.25, 1.1, 0.1)).time.unwrap();
     assert!(noisy.holds(0.25) && noisy.high().unwrap() - noisy.low().unwrap() > 0.01, "{noisy:?}");
     // Memory is 100 bytes per triangle, and counts do not grow.
@@ -77,7 +74,7 @@ fn a_claim_about_coarser_meshes_is_judged_by_these_alone_in_all_of_their_epochs(
     let mut measured = spheres(0.25, 1.0, 0.02);
     let growth = one(measured.clone());
     assert_eq!(growth.time, growth.time_to_level_8);
-    // Four more epochs of the coarser meshes, and two of a mesh beyond level 8, where the exponent differs.
+    // The coarser meshes get four more epochs. A mesh beyond level 8 gets two epochs and another exponent.
     for (i, n) in TRIANGLES.into_iter().enumerate() {
         let ns = (2e6 * libm::pow(n as f64, 0.25)) as u64;
         let of = |epoch: usize| ns + (i + epoch) as u64 % 2 * 100_000;

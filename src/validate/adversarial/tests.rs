@@ -47,7 +47,7 @@ fn strata_hold_what_they_promise() {
     let far = Stratum::FarOrigins.rays(&mesh, 200, 3);
     assert!(far.iter().all(|r| r.origin.length() > 900.0));
 
-    // Find hits just before the float at which the interval ends; for some, this is the largest float.
+    // Some exact hits lie just before the end of the interval, but round to the end.
     let before_its_end = |ray: &&Ray| oracle::nearest(ray, &mesh).is_some_and(|truth| truth.rounded() == ray.t_max);
     let rounded = Stratum::RoundedEnds.rays(&mesh, 400, 3);
     let found: Vec<&Ray> = rounded.iter().filter(before_its_end).collect();

@@ -6,7 +6,7 @@ use crate::validate::{Stratum, degenerate_meshes};
 
 type Correct = BruteForce<MollerTrumbore>;
 
-/// A structure that damages the right hits: `damage` receives the bits of `ray.origin.x` and the right hit.
+/// `damage` receives the bits of `ray.origin.x` and the right hit.
 struct Broken {
     correct: Correct,
     damage: Damage,
@@ -40,7 +40,7 @@ impl Accel for Broken {
 
 type Damage = fn(u32, Option<Hit>) -> Option<Hit>;
 
-/// Compares a damaged structure on rays through a triangle soup. `share`: the reference has the same triangle test.
+/// `share`: the reference has the same triangle test.
 fn damaged(damage: Damage, any: fn(bool) -> bool, share: bool) -> Validation {
     let mesh = soup();
     let mut reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();
@@ -118,7 +118,7 @@ fn contradictory_and_unrepeatable_hits_are_found() {
 #[test]
 fn a_farther_hit_is_a_lost_nearer_one() {
     let mesh = soup();
-    // Each triangle of the first half becomes a point; the second half keeps its numbers.
+    // Each triangle of the first half becomes a point. The second half keeps its numbers.
     let keep = mesh.triangles().iter().enumerate().map(|(i, t)| if i < 250 { [t[0]; 3] } else { *t });
     let kept = Mesh::new(mesh.positions().to_vec(), keep.collect()).unwrap();
     let half = Correct::build(&Arc::new(kept), &Default::default()).unwrap();
@@ -130,7 +130,7 @@ fn a_farther_hit_is_a_lost_nearer_one() {
     assert!(answers.answer_errors > 500 && answers.structure_errors == 0);
     let kinds = |v: &Validation| v.worst.iter().all(|w| w.kind == Kind::Lost);
     assert!(kinds(&v) && kinds(&answers), "misses rank before farther hits");
-    // Keep rays that hit the second half: an error on such a ray is a lost nearer hit on the first half.
+    // These rays hit the second half. An error on such a ray is a lost nearer hit on the first half.
     let only = |v: &Validation| v.structure_errors + v.answer_errors;
     let both: Vec<Ray> = rays.into_iter().filter(|ray| half.closest_hit(ray, &mut ()).is_some()).collect();
     let reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();

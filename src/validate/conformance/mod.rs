@@ -1,5 +1,4 @@
-//! The tests that every structure must pass: functions that return their findings, and a macro that turns them into
-//! tests.
+//! Tests that every structure must pass, as functions and as the macro `conformance!`.
 
 mod soundness;
 
@@ -12,38 +11,31 @@ use crate::geometry::Mesh;
 
 pub use soundness::{counting, shapes};
 
-/// A structure under test.
 pub struct Subject {
-    /// The name in failures.
     pub name: String,
     /// See [`Accel::TRIANGLE_TEST`].
     pub triangle_test: &'static str,
-    /// Whether the structure promises the lowest number among primitives at equal `t`.
+    /// Whether the structure promises the lowest primitive number among hits at equal `t`.
     pub lowest_id: bool,
-    /// Time limit of a build or a query before it counts as hanging.
+    /// Time limit of a build or a query.
     pub limit: Duration,
-    /// Builds the structure.
     pub build: Build,
 }
 
-/// Builds a structure.
 pub type Build = Arc<dyn Fn(&Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> + Send + Sync>;
 
 /// The result on one mesh and one stratum.
 pub struct Finding {
-    /// Name of the mesh.
     pub mesh: String,
     pub stratum: Stratum,
     pub validation: Validation,
 }
 
-/// A mesh by name.
 pub type Named = (String, Arc<Mesh>);
 
 const SEED: u64 = 2003;
 
 impl Subject {
-    /// A subject with the structures that `build` returns. See [`Accel::TRIANGLE_TEST`] for `triangle_test`.
     pub fn new(
         name: &str,
         triangle_test: &'static str,
@@ -52,12 +44,10 @@ impl Subject {
         Self { name: name.into(), triangle_test, lowest_id: false, limit: LIMIT, build: Arc::new(build) }
     }
 
-    /// A subject with the structure `A` and one configuration.
     pub fn of<A: Accel>(name: &str, config: A::Config) -> Self {
         Self::new(name, A::TRIANGLE_TEST, move |mesh| Ok(Box::new(A::build(mesh, &config)?)))
     }
 
-    /// Builds within the time limit.
     fn built(&self, name: &str, mesh: &Arc<Mesh>) -> Result<Arc<dyn DynAccel>, String> {
         let (build, own) = (Arc::clone(&self.build), Arc::clone(mesh));
         let refusal = |why: String| format!("{} does not build over {name:?}: {why}", self.name);
@@ -66,10 +56,10 @@ impl Subject {
     }
 }
 
-/// Compares the subject with a reference on `count` rays of every stratum, on every mesh. It stops after a hang.
+/// Compares the subject with a reference on `count` rays of every stratum, on every mesh. Stops after a hang.
 ///
 /// # Errors
-/// If a mesh does not build.
+/// If the subject or its reference cannot be built over a mesh.
 pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec<Finding>, String> {
     let mut findings = vec![];
     for (name, mesh) in meshes {
@@ -90,13 +80,12 @@ pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec
     Ok(findings)
 }
 
-/// Checks that hits are right: no structure error on any mesh and stratum, any hit agrees with closest hit, single rays
-/// agree with batches, nothing panics or hangs, and the lowest primitive wins if `lowest_id` is set.
+/// Checks that [`findings`] finds no error, and the lowest primitive at equal `t` if `lowest_id` is set.
 ///
 /// If this crate lacks the structure's triangle test, hits that rounding in single precision explains count as right.
 ///
 /// # Errors
-/// One line per failing mesh and stratum, with the worst ray. Also if a mesh does not build or every ray is declined.
+/// One line per failing mesh and stratum. Also if a mesh does not build, or if the subject declines every ray.
 pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), String> {
     let wrong = |finding: &Finding| {
         let v = &finding.validation;
@@ -113,7 +102,7 @@ pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), 
 }
 
 impl Finding {
-    /// The failure in one line. It contains the worst ray as text that [`Ray`](crate::geometry::Ray) parses.
+    /// Describes the failure in one line, with the worst ray in the text format of [`Ray`](crate::geometry::Ray).
     pub fn line(&self, subject: &str) -> String {
         let v = &self.validation;
         let worst = v.worst.first().map_or("no ray".into(), ToString::to_string);
@@ -137,7 +126,6 @@ impl Finding {
     }
 }
 
-/// The error contains the first ten lines and the number of further lines.
 fn outcome(lines: Vec<String>) -> Result<(), String> {
     const SHOWN: usize = 10;
     if lines.is_empty() {
@@ -148,8 +136,9 @@ fn outcome(lines: Vec<String>) -> Result<(), String> {
     Err(if more > 0 { format!("{shown}\nand {more} more") } else { shown })
 }
 
-/// Makes a module of tests that check a structure against the contract of [`Accel`]: `sahara::conformance!(my_tree,
-/// MyTree, MyConfig::default());`
+/// Makes a module of tests that check a structure against the contract of [`Accel`].
+///
+/// Example: `sahara::conformance!(my_tree, MyTree, MyConfig::default());`
 ///
 /// With `lowest_id` as a fourth argument, the lowest primitive number must win among equal `t`.
 #[macro_export]

@@ -10,14 +10,12 @@ use crate::geometry::{Hit, Ray};
 use crate::validate::compare::same;
 use crate::validate::{Stratum, WatchError, watched};
 
-/// The results of the closest-hit query and of the any-hit query, one per ray.
 #[derive(Clone)]
 struct Hits {
     closest: Vec<Option<Hit>>,
     any: Vec<bool>,
 }
 
-/// Hits of plain queries, of queries on loaded rays and of counting queries; the counts of closest hit and any hit.
 struct Traced {
     plain: Hits,
     loaded: Hits,
@@ -25,7 +23,6 @@ struct Traced {
     counts: [Counts; 2],
 }
 
-/// Runs all queries within a time limit, without the any-hit query if the structure does not support it.
 fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Traced, WatchError> {
     let (accel, rays) = (Arc::clone(accel), rays.to_vec());
     watched(limit, move || {
@@ -39,7 +36,7 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
         if accel.capabilities().any_hit {
             accel.any_hits(&rays, &mut plain.any);
             kept.any_hits(&mut loaded.any);
-            // Query closest hits again: the any-hit query must leave loaded rays unchanged.
+            // Query closest hits again, because the any-hit query must leave loaded rays unchanged.
             kept.closest_hits(&mut loaded.closest);
             accel.any_hits_counted(&rays, &mut counted.any, &mut counts[1]);
         }
@@ -48,9 +45,8 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
     })
 }
 
-/// Checks that counting and loading rays change no hit, bit for bit. A counting query may return another primitive at
-/// the same `t` if the structure does not promise the lowest one. Also checks that undeclared counts are zero, and that
-/// declared counts are above zero if a ray hits.
+/// Checks that counting and loading rays change no hit, and that the counts agree with
+/// [`Accel::OBSERVED`](crate::accel::Accel::OBSERVED).
 ///
 /// # Errors
 /// One line per violation, or one line if a build or a query fails or hangs.
@@ -66,7 +62,6 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
             let traced = match trace(&accel, &rays, subject.limit) {
                 Ok(traced) => traced,
                 Err(ended) => {
-                    // Find the first ray that also fails on its own.
                     let alone = rays.iter().find(|ray| trace(&accel, &[**ray], subject.limit).is_err());
                     let which = alone.map_or("all rays".into(), |ray| format!("ray \"{ray}\""));
                     return Err(format!("{context}: tracing {which} with counts failed: {ended}"));
@@ -109,7 +104,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
     outcome(lines)
 }
 
-/// Checks that the shape is possible. For example, it has at least one reference per triangle with an area.
+/// Checks that the shape of the tree is possible.
 ///
 /// # Errors
 /// One line per violation, or one line if a build, `shape` or `footprint` fails or hangs.

@@ -14,20 +14,19 @@ use crate::validate::compare::same;
 use crate::validate::conformance::Subject;
 use crate::validate::has_replied;
 
-/// The results of a structure on a case. One process sends these results to another as JSON.
+/// The results of a structure on a case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Answers {
     /// The closest hits, one per ray. Empty for a property.
     #[serde(serialize_with = "hits_as_bytes", deserialize_with = "hits_of_bytes")]
     pub hits: Vec<Option<Hit>>,
-    /// Duration of the call of the builder, ns. 0 for a property.
+    /// Build time, ns. 0 for a property.
     pub build_ns: u64,
-    /// Rays on which any hit contradicts closest hit.
+    /// Rays on which the any-hit query contradicts the closest-hit query.
     pub any_hit_errors: u64,
-    /// Rays whose hit changes if they are traced on their own instead of in a batch. At most 500 rays are traced again.
+    /// Rays whose hit differs between a batch and a single ray. At most 500 rays are traced again.
     pub unrepeatable: u64,
-    /// Time per ray of the case / time per ray of `Set::ordinary`, the median over several passes. `None` if the case
-    /// has no ordinary rays.
+    /// Time per ray of the case / time per ray of `Set::ordinary`. `None` if the case has no ordinary rays.
     pub slowness: Option<f64>,
     pub property: Option<Property>,
 }
@@ -41,10 +40,10 @@ fn hits_of_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Optio
     Ok(hits_from_bytes(&Vec::deserialize(deserializer)?))
 }
 
-/// Builds `subject` over the mesh of `case` and traces at most `rays` rays, or checks the property of `case`.
+/// Builds `subject` over the mesh of `case` and traces at most `rays` rays, or checks the property.
 ///
 /// # Errors
-/// If the structure declines a ray, or its external program fails. In a case with rays, also if the build fails.
+/// If the structure declines a ray, or if its external program fails. In a case with rays, also if the build fails.
 pub fn run(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
     match case.content {
         Content::Rays { rays: most, make, .. } => {
@@ -73,7 +72,7 @@ pub fn run(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -
     }
 }
 
-/// The maximum number of rays that are traced again on their own, evenly spread.
+/// The maximum number of rays that are traced again on their own.
 const AGAIN: usize = 500;
 
 fn traced(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Answers {
@@ -90,7 +89,6 @@ fn traced(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Answers {
     Answers { hits, any_hit_errors, unrepeatable, slowness: slowness(accel, set, clock), ..Answers::default() }
 }
 
-/// The number of passes over the rays of the case. Passes over its ordinary rays alternate with them.
 const PASSES: usize = 15;
 
 fn slowness(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Option<f64> {

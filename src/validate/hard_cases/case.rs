@@ -4,12 +4,10 @@ use super::set::Set;
 use crate::accel::BuildError;
 use crate::validate::conformance::Subject;
 
-/// One entry of the catalogue.
 #[derive(Clone, Copy)]
 pub struct HardCase {
     /// Starts at 1 and ascends in the catalogue. Two cases have the number 23.
     pub number: u32,
-    /// The name on the command line.
     pub name: &'static str,
     pub rank: Rank,
     pub content: Content,
@@ -19,25 +17,23 @@ pub struct HardCase {
     pub source: &'static str,
 }
 
-/// Whether a case belongs to the two totals that `validate --hard` prints: 59 valid cases, and 49 moderate ones.
-/// A survey of ray tracers measured the cases up to number 71 and ranked 59 of them. It did not rank the empty scene,
-/// vertices that are not finite, ends of intervals, origins on a surface, and invalid rays. Ten of the 59 are extreme:
-/// scales up to 1e-20 or from 1e15, directions of these lengths, and origins 1e8 away.
+/// Whether a case belongs to the two totals that `validate --hard` prints. The first total is over the 59 moderate and
+/// extreme cases. The second total is over the 49 moderate cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rank {
-    /// Valid input of moderate sizes. Belongs to the total of 59 cases and to the total of 49.
+    /// Valid input of moderate sizes.
     Moderate,
-    /// Valid input of sizes at which `f32` products leave their range. Belongs only to the total of 59 cases.
+    /// Valid input of sizes at which `f32` products leave their range.
     Extreme,
     /// Belongs to no total: the input is invalid, no ray can hit, or systems differ in the ends of intervals.
     Unranked,
-    /// Belongs to no total, because the survey did not measure the case.
+    /// Belongs to no total, because the survey that ranked the cases did not measure this case.
     Added,
 }
 
 impl HardCase {
-    /// Mesh and rays, at most `most` rays; `None` for a property.
+    /// At most `most` rays, and their mesh. `None` for a property.
     pub fn set(&self, most: usize) -> Option<Set> {
         match self.content {
             Content::Rays { rays, make, .. } => Some(make(rays.min(most))),
@@ -46,10 +42,8 @@ impl HardCase {
     }
 }
 
-/// The check of a case.
 #[derive(Clone, Copy)]
 pub enum Content {
-    /// The closest hits of rays over one mesh.
     Rays {
         /// Default and maximum number of rays.
         rays: usize,
@@ -57,16 +51,14 @@ pub enum Content {
         /// Makes mesh and rays, with the same bits on every machine. A smaller number gives the first of these rays.
         make: fn(usize) -> Set,
     },
-    /// The check of a property. The `usize` is the approximate number of rays. Fails if the structure cannot be built.
+    /// The check of a property. The `usize` is the approximate number of rays.
     Property(fn(&Subject, usize) -> Result<Property, BuildError>),
 }
 
 /// The right hits of the rays of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
-    /// Every ray hits something.
     Hit,
-    /// No ray hits anything.
     Miss,
     /// The hits of the exact oracle.
     Oracle,
@@ -74,12 +66,10 @@ pub enum Expected {
     SameAs(&'static str),
 }
 
-/// The result of the check of a property.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct Property {
     /// Number of comparisons.
     pub checked: u64,
-    /// Number of failed comparisons.
     pub broken: u64,
     /// The first failed comparison, in one sentence.
     pub example: Option<String>,

@@ -21,7 +21,7 @@ const OVERFLOW: &str = "Embree, FLT_LARGE; measured: every peer of f32 misses or
 const TIME: &str = "Embree, verify.cpp, nan_test and inf_test: time below 2.5 times the time of valid rays";
 
 cases! {
-    // A closed star, from inside: every ray hits.
+    // Rays from inside a closed star, which all hit.
     Moderate 1 "closed_random", Hit => |n| Set::new(star(), n, 1, |_, s| Ray::new(inside(s), s.direction())),
         "Random rays inside a spiky closed star: the minimum requirement of watertight traversal.",
         "pbrt-v4, shapes_test.cpp, Triangle.Watertight";
@@ -31,7 +31,7 @@ cases! {
     Moderate 3 "closed_edge", Hit => |n| Set::new(star(), n, 1, |mesh, s| ray_to(inside(s), on_edge(mesh, s))),
         "At an edge both triangles may reject the ray when their edge functions round differently.", "Woop, Benthin, Wald 2013";
 
-    // A cube with grid lines at multiples of an eighth: random rays, and rays along its axes, diagonals and faces.
+    // A cube with grid lines at multiples of 1/8.
     Moderate 4 "cube_random", Hit => |n| Set::new(cube(), n, 3, |_, s| Ray::new(s.cube() * 0.99, s.direction())),
         "Random rays inside a cube: faces in the planes of the root box.", "survey";
     Moderate 5 "cube_axis_aligned", Hit => |n| {
@@ -52,7 +52,7 @@ cases! {
     Moderate 9 "cube_diag_110", Hit => |n| Set::new(cube(), n, 5, |_, s| diagonal(s, true)),
         "A diagonal with one zero component, often in the plane of a face.", "Embree pull request 589; Ize 2013";
 
-    // Triangles in one plane, and rays across this plane, in it and nearly in it.
+    // Rays across a plane of triangles, in this plane, or nearly in it.
     Moderate 10 "flat_down", Hit => |n| Set::new(sheet(32), n, 6, |_, s| Ray::new(at_height(s, 1.0), Vec3::NEG_Z)),
         "The root box has no thickness: an interval of one point must not count as empty.",
         "Hapala, Havran 2011: flat cells";
@@ -143,7 +143,7 @@ cases! {
     Moderate 39 "fan_random", Hit => |n| Set::new(fan(), n, 15, |_, s| ray_to(below(s), at_height(s, 0.0) * 0.4)),
         "A fan of 800 triangles; the rays aim next to its apex.", "survey";
 
-    // Triangles that no plane separates, of very different sizes or without area; one triangle, and none.
+    // Triangles that coincide, overlap, have no area or differ much in size. Meshes of one or no triangle.
     Moderate 40 "coincident_1000", Hit x 2000 => |n| Set::new(copies(1000), n, 28, to_copies),
         "A thousand copies of one triangle: the lowest number must win, and no split separates them.",
         "Embree, verify.cpp, overlapping_primitives";
@@ -227,7 +227,7 @@ cases! {
     Moderate 64 "soup_random", Oracle => |n| Set::new(soup(2000, 22), n, 22, to_surface),
         "Random triangles and rays, for comparison with the other cases.", "survey";
 
-    // Invalid rays: a structure must return a miss for each of them, in a short time. Case 72 has valid rays.
+    // Invalid rays, for which a structure must return a miss in a short time. Case 72 has valid rays.
     Unranked 65 "rays_nan_origin", Miss x 1000 => |n| spoilt(n, |s, ray| ray.origin[s.below(3)] = f32::NAN),
         "NaN in the origin: comparisons with it are false, and code that drops NaN walks the whole tree.", TIME;
     Unranked 66 "rays_nan_dir", Miss x 1000 => |n| spoilt(n, |s, ray| ray.direction[s.below(3)] = f32::NAN),
@@ -250,7 +250,7 @@ cases! {
         "Rays that leave a surface at a rounded point: half of the points lie below it, so the ray hits it again.",
         "Wächter, Binder 2019; pbrt-v4, Triangle.Reintersect";
 
-    // Further cases that the survey did not measure: properties that all hits must have, and meshes.
+    // Cases that the survey of ray tracers did not measure.
     Added 73 "continuation", Property => continuation,
         "Continuing behind each hit must visit every crossing of a ray once.",
         "Embree, verify.cpp, sphere_filter_multi_hit";
@@ -289,7 +289,7 @@ cases! {
         "References and depth must stay bounded if no plane separates the triangles, or memory runs out.",
         "pbrt-v4, kd-tree: depth 8 + 1.3 log2 N and bad refines; Embree, regression with failing allocations";
 
-    // Failures that were found with this crate: by reviews, fuzzing and users.
+    // Failures that were found with this crate.
     Added 85 "scale_7e-15", Hit => in_tiny_star,
         "Products of three lengths underflow, products of two do not: a bound on one does not bound the other.",
         "sahara, the first stage of the exact test";

@@ -3,7 +3,6 @@
 use super::case::HardCase;
 use super::catalogue::CASES;
 
-/// The error for a name that no hard case has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no hard case {name:?}; similar names: {nearest}; `sahara list hard` lists all")]
 pub struct UnknownCase {
@@ -24,10 +23,10 @@ pub fn find(name: &str) -> Result<&'static HardCase, UnknownCase> {
     Ok(find_all(name)?[0])
 }
 
-/// The case with this name, in upper or lower case, or all cases with this number. Two cases have the number 23.
+/// The case with this name, in upper or lower case, or all cases with this number.
 ///
 /// # Errors
-/// If no case matches. The error contains the three most similar names.
+/// If no case matches.
 pub fn find_all(name: &str) -> Result<Vec<&'static HardCase>, UnknownCase> {
     let mut cases = catalogue();
     cases.retain(|case| case.name.eq_ignore_ascii_case(name) || case.number.to_string() == name);

@@ -17,14 +17,13 @@ pub(super) fn moved(mesh: &Mesh, to: impl Fn(Vec3) -> Vec3) -> Arc<Mesh> {
     indexed(mesh.positions().iter().copied().map(to).collect(), mesh.triangles().to_vec())
 }
 
-/// The triangles of `one`, followed by the triangles of `other`.
 pub(super) fn joined(one: &Mesh, other: &Mesh) -> Arc<Mesh> {
     let first = one.positions().len() as u32;
     let moved_on = other.triangles().iter().map(|corners| corners.map(|corner| first + corner));
     indexed([one.positions(), other.positions()].concat(), one.triangles().iter().copied().chain(moved_on).collect())
 }
 
-/// Rotates `p`. The matrix is orthogonal up to rounding, and none of its numbers is simple.
+/// Rotates `p` by a matrix that is orthogonal up to rounding.
 pub(super) fn tilted(p: Vec3) -> Vec3 {
     const AXES: [Vec3; 3] = [
         Vec3::new(0.754_406_5, -0.304_113_5, 0.581_715_7),
@@ -34,14 +33,13 @@ pub(super) fn tilted(p: Vec3) -> Vec3 {
     AXES[0] * p.x + AXES[1] * p.y + AXES[2] * p.z
 }
 
-/// A closed sphere of radius 1, divided by meridians and parallels. Neighbours share corners bit for bit.
+/// A closed sphere of radius 1. Neighbours share corners bit for bit.
 pub(super) fn sphere() -> Arc<Mesh> {
     let model = meshes::uv_sphere(50, 50);
     indexed(model.positions, model.triangles)
 }
 
-/// The closed star of pbrt's watertight test: a sphere of 32 meridians and parallels with vertices at random radii of 1
-/// to 6. All points nearer to zero than 0.9 are inside.
+/// The closed star of pbrt's watertight test. Points nearer to zero than 0.9 are inside.
 pub(super) fn star() -> Arc<Mesh> {
     let mut sampler = Sampler::new(1);
     let [top, bottom, ..]: [f32; 2] = std::array::from_fn(|_| 1.0 + 5.0 * sampler.unit());
@@ -63,7 +61,7 @@ pub(super) fn star_times(scale: f32) -> Arc<Mesh> {
     moved(&star(), |p| p * scale)
 }
 
-/// `n` by `n` squares of side `2 / n` in the plane z = 0, from -1 to 1.
+/// `n` by `n` squares in the plane z = 0, from -1 to 1 along x and y.
 pub(super) fn sheet(n: u32) -> Arc<Mesh> {
     let at = |i: u32| 2.0 * i as f32 / n as f32 - 1.0;
     let points = (0..=n).flat_map(|j| (0..=n).map(move |i| Vec3::new(at(i), at(j), 0.0))).collect();
@@ -76,7 +74,7 @@ pub(super) fn sheet(n: u32) -> Arc<Mesh> {
     indexed(points, triangles.collect())
 }
 
-/// The surface of the cube [-1, 1]^3, 16 by 16 squares per face. Corners are multiples of 1/8; normals point outward.
+/// The surface of the cube [-1, 1]^3. Corners are multiples of 1/8. Normals point outward.
 pub(super) fn cube() -> Arc<Mesh> {
     let grid = box_grid(16);
     let outward = |&[i, j, k]: &[u32; 3]| {
@@ -86,7 +84,6 @@ pub(super) fn cube() -> Arc<Mesh> {
     indexed(grid.positions().to_vec(), grid.triangles().iter().map(outward).collect())
 }
 
-/// A thousand strips of 1000 x 1e-3, side by side.
 pub(super) fn strips() -> Arc<Mesh> {
     let points = (0..=1000).flat_map(|i| [0.0, 1000.0].map(|x| Vec3::new(x, i as f32 * 1e-3, 0.0)));
     let strips = (0..1000).map(|i| 2 * i).flat_map(|a: u32| [[a, a + 1, a + 3], [a, a + 3, a + 2]]);
@@ -101,7 +98,6 @@ pub(super) fn hair() -> Arc<Mesh> {
     }))
 }
 
-/// 800 triangles that share the vertex at zero.
 pub(super) fn fan() -> Arc<Mesh> {
     let fan = meshes::fan(800);
     indexed(fan.positions, fan.triangles)
@@ -121,7 +117,7 @@ pub(super) fn ulp_copies() -> Arc<Mesh> {
     mesh((0..500).map(|_| TRIANGLE.map(|p| Vec3::from_array(p.to_array().map(&mut shift)))))
 }
 
-/// Triangles along the x axis. Every fourth is a sliver. All other triangles have no area: they lie on the axis.
+/// Triangles along the x axis. Every fourth is a sliver. All other triangles have no area.
 pub(super) fn line() -> Arc<Mesh> {
     let on_line = |i: usize, step: f32| Vec3::new(i as f32 * 0.125 + step, 0.0, 0.0);
     mesh((0..400).map(|i| {
@@ -140,7 +136,6 @@ pub(super) fn mostly_centred() -> Arc<Mesh> {
     mesh(alike.chain(soup_triangles(600, 26)))
 }
 
-/// A teapot of about unit size.
 pub(super) fn pot() -> Arc<Mesh> {
     let model = meshes::teapot();
     moved(&indexed(model.positions, model.triangles), |p| p * 0.04)
@@ -156,7 +151,6 @@ pub(super) fn largest_numbers() -> Arc<Mesh> {
     }))
 }
 
-/// Triangles perpendicular to the x axis, at the powers of two from 2^-60 to 2^60. Sizes are proportional to x.
 pub(super) fn deep_chain() -> Arc<Mesh> {
     mesh((-60..=60).map(|exponent| {
         let at = libm::scalbnf(1.0, exponent);

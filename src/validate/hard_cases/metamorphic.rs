@@ -15,18 +15,17 @@ use crate::validate::{Sampler, has_replied};
 /// A change of a scene that keeps every `t`, or multiplies every `t` by a power of two.
 struct Change {
     name: &'static str,
-    /// Whether every product rounds as before the change. If so, every triangle test must return the expected bits of
-    /// `t`. If not, only the exact test must.
+    /// Whether every product rounds as before the change. Otherwise only the exact test must return the expected bits
+    /// of `t`.
     same_rounding: bool,
     triangles: fn(&[[Vec3; 3]]) -> Vec<[Vec3; 3]>,
-    /// The new position of a point of the scene or of a ray's origin.
+    /// Moves a vertex or a ray origin.
     point: fn(Vec3) -> Vec3,
     direction: fn(Vec3) -> Vec3,
     /// The new `t` divided by the old one.
     factor: f32,
 }
 
-/// No change.
 const SAME: Change = Change {
     name: "",
     same_rounding: false,
@@ -63,7 +62,6 @@ fn halves(&[a, b, c]: &[Vec3; 3]) -> [[Vec3; 3]; 2] {
     [[a, b, middle], [a, middle, c]]
 }
 
-/// Compares the hits in a scene with the hits in each changed scene.
 pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let mut sampler = Sampler::new(75);
     let mut grid = |reach: f32| (sampler.cube() * (reach * 1024.0)).round() / 1024.0;
@@ -99,8 +97,8 @@ pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, Bu
     Ok(property)
 }
 
-/// Traces rays straight down to inner vertices of a sheet. The rays lie in the planes of many boxes. A structure that
-/// hits the sheet with the direction (1e-30, 1e-30, -1) must also hit it with (0, 0, -1), however its test rounds.
+/// Traces rays straight down to inner vertices of a sheet. The rays lie in the planes of many boxes. If the direction
+/// (1e-30, 1e-30, -1) hits, the direction (0, 0, -1) must also hit.
 pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let accel = (subject.build)(&sheet(32))?;
     let (mut sampler, mut property) = (Sampler::new(77), Property::default());

@@ -1,7 +1,5 @@
-//! The hard cases: inputs that ray tracers are known to get wrong, each with a generator and the expected hits.
+//! Hard cases: inputs on which ray tracers are known to fail, with the expected hits.
 //!
-//! A case is data: a name, a reason with its source, and either rays over a mesh or a property of hits. Cases 1 to 84
-//! come from a survey of ray tracers. Cases from 85 on were found with this crate. Two cases have the number 23.
 //! [`run`] runs a case on a structure. [`Score`] compares the hits of the structure with the exact hits.
 
 mod answers;

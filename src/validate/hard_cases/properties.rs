@@ -10,12 +10,10 @@ use crate::validate::conformance::Subject;
 use crate::validate::degenerate::{exponential, huge_and_small, needles, soup};
 use crate::validate::{Reference, Sampler, Stratum, Validation, has_replied, validate};
 
-/// Divides `rays` by `among`, but returns at least 4.
 pub(super) fn shared(rays: usize, among: usize) -> usize {
     rays.div_ceil(among).max(4)
 }
 
-/// Builds the structure, and the reference for its triangle test.
 fn with_reference(subject: &Subject, mesh: &Arc<Mesh>) -> Result<(Box<dyn DynAccel>, Reference), BuildError> {
     Ok(((subject.build)(mesh)?, Reference::of_test(subject.triangle_test, mesh)?))
 }
@@ -35,7 +33,7 @@ pub(super) fn sizes(subject: &Subject, rays: usize) -> Result<Property, BuildErr
     validated(subject, &meshes, rays, |found| (found.errors(), "a hit is wrong"))
 }
 
-/// Compares `subject` with brute force on all strata and `meshes`. `errors` selects the errors that break the property.
+/// `errors` selects the errors that break the property.
 fn validated(
     subject: &Subject,
     meshes: &[Arc<Mesh>],
@@ -61,10 +59,10 @@ fn validated(
     Ok(property)
 }
 
-/// The maximum number of rays per line. No scene here needs as many. It stops a structure that does not advance.
+/// The maximum number of rays on a line. The limit stops a structure that does not advance.
 const CROSSINGS: usize = 4096;
 
-/// `ray`, and for each hit of `accel` on its line a copy of `ray` that starts behind this hit.
+/// `ray`, and a copy of `ray` that starts behind each hit of `accel`.
 fn continued(accel: &dyn DynAccel, ray: Ray) -> Vec<Ray> {
     let mut rays = vec![ray];
     while let Some(hit) = accel.closest(&rays[rays.len() - 1..])[0] {
@@ -85,7 +83,7 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// Compares `subject` with brute force on rays, and on their continuations behind each hit of brute force.
+/// The rays continue behind each hit of brute force.
 pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let mesh = star();
     let (accel, reference) = with_reference(subject, &mesh)?;
@@ -97,7 +95,7 @@ pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, B
     Ok(Property { checked: found.rays, broken: found.errors(), example })
 }
 
-/// Checks that each ray crosses a closed mesh an even number of times, or as often as brute force with the same test.
+/// An odd number of crossings is allowed if brute force with the same triangle test has as many.
 pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let (accel, reference) = with_reference(subject, &star())?;
     let mut property = Property::default();
@@ -111,9 +109,9 @@ pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, BuildEr
     Ok(property)
 }
 
-/// The largest accepted number of references per triangle, on any mesh.
+/// The maximum number of references per triangle.
 const REFERENCES: usize = 64;
-/// The largest accepted number of edges from root to leaf.
+/// The maximum number of edges from root to leaf.
 const DEPTH: usize = 1024;
 
 pub(super) fn limits(subject: &Subject, _rays: usize) -> Result<Property, BuildError> {

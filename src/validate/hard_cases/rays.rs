@@ -1,4 +1,4 @@
-//! Generators of rays that take more than a line in the catalogue.
+//! Generators of rays, and of some meshes, for the catalogue.
 
 use glam::Vec3;
 
@@ -15,7 +15,7 @@ pub(super) fn inside(sampler: &mut Sampler) -> Vec3 {
     sampler.direction() * (0.5 * sampler.unit())
 }
 
-/// Rays from inside a sphere, at most half its radius from the centre. The moved sphere is rounded, but closed.
+/// Rays from inside a sphere. Rounding moves the vertices of the sphere, but the sphere stays closed.
 pub(super) fn in_sphere(count: usize, centre: Vec3, radius: f32) -> Set {
     let mesh = moved(&sphere(), |p| centre + p * radius);
     Set::new(mesh, count, 2, |_, sampler| Ray::new(centre + inside(sampler) * radius, sampler.direction()))
@@ -27,14 +27,14 @@ pub(super) fn nearly_axis(sampler: &mut Sampler, tiny: f32) -> Vec3 {
     direction
 }
 
-/// A direction along an axis; the other two components are `zero`.
+/// A direction along an axis. Its other two components are `zero`.
 pub(super) fn along_axis(sampler: &mut Sampler, zero: f32) -> Vec3 {
     let mut direction = Vec3::splat(zero);
     direction[sampler.below(3)] = sampler.sign();
     direction
 }
 
-/// A multiple of an eighth from -1 to 1, both ends included.
+/// A multiple of 1/8 from -1 to 1.
 fn on_grid(sampler: &mut Sampler) -> f32 {
     sampler.below(17) as f32 / 8.0 - 1.0
 }
@@ -57,7 +57,6 @@ pub(super) fn diagonal(sampler: &mut Sampler, flat: bool) -> Ray {
     Ray::new(through - direction * 4.0, direction)
 }
 
-/// A point at `height` above the sheet.
 pub(super) fn at_height(sampler: &mut Sampler, height: f32) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), height)
 }
@@ -67,7 +66,6 @@ pub(super) fn in_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(at_height(sampler, 0.0), Vec3::new(direction.x, direction.y, 0.0))
 }
 
-/// A ray to a tilted sheet, at this slope. Rounding moves the vertices of the sheet slightly out of its plane.
 pub(super) fn at_slope(sampler: &mut Sampler, slope: f32) -> Ray {
     let direction = sampler.direction();
     let flat = Vec3::new(direction.x, direction.y, 0.0).normalize_or(Vec3::X);
@@ -90,17 +88,14 @@ pub(super) fn from_split_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(x, sampler.signed(), sampler.signed()), sampler.direction())
 }
 
-/// Rays from inside the star; mesh and origins are multiplied by `scale`.
 pub(super) fn scaled(count: usize, scale: f32) -> Set {
     Set::new(star_times(scale), count, 11, |_, sampler| Ray::new(inside(sampler) * scale, sampler.direction()))
 }
 
-/// Rays from inside the star, with directions of this length.
 pub(super) fn long(count: usize, length: f32) -> Set {
     Set::new(star(), count, 11, |_, sampler| Ray::new(inside(sampler), sampler.direction() * length))
 }
 
-/// Rays from above onto a field of strips. `placed` moves strips and rays.
 pub(super) fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
     Set::new(moved(&strips(), placed), count, 12, |_, sampler| {
         let target = Vec3::new(1000.0 * sampler.unit(), sampler.unit(), 0.0);
@@ -109,12 +104,12 @@ pub(super) fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
     })
 }
 
-/// A point below the fan, from which the back of each triangle is visible.
+/// The back of each triangle of the fan is visible from this point.
 pub(super) fn below(sampler: &mut Sampler) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), -3.0 - 2.0 * sampler.unit())
 }
 
-/// A ray to a point well inside `TRIANGLE`. The mesh consists of copies of this triangle.
+/// The mesh must consist of copies of `TRIANGLE`.
 pub(super) fn to_copies(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let ([a, b, c], [u, v, w]) = (TRIANGLE, sampler.barycentric().map(|weight| 0.2 + 0.4 * weight));
     let origin = Vec3::new(sampler.signed(), sampler.signed(), 4.0 * sampler.sign());
@@ -126,16 +121,15 @@ pub(super) fn to_line(_: &Mesh, sampler: &mut Sampler) -> Ray {
     ray_to(target + Vec3::new(sampler.signed(), sampler.sign(), sampler.signed()), target)
 }
 
-/// A ray from a sphere around the mesh to one of its triangles.
 pub(super) fn to_surface(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element());
     ray_to(centre + sampler.direction() * reach, on_surface(mesh, sampler))
 }
 
-/// A triangle with integer corners. The points at eighths of its edges are exact floats.
+/// The points at eighths of the edges are exact floats.
 pub(super) const SIMPLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(8.0, 0.0, 4.0), Vec3::new(0.0, 8.0, -4.0)];
 
-/// A ray from a point in front of the triangle to a point at an eighth of an edge. The direction is exact, so t is 1.
+/// A ray to a point at an eighth of an edge. Its direction is exact, so `t` is 1.
 pub(super) fn exactly_on_the_rim(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let [a, b, c] = SIMPLE;
     let normal = (b - a).cross(c - a);
@@ -167,7 +161,6 @@ pub(super) fn around_shells(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(origin, (target - origin) / outermost)
 }
 
-/// Rays to a teapot, from inside a closed box a hundred thousand times as large.
 pub(super) fn stadium(count: usize) -> Set {
     let pot = pot();
     Set::new(joined(&pot, &moved(&box_grid(8), |p| p * 1e5)), count, 37, |_, sampler| {
@@ -176,8 +169,7 @@ pub(super) fn stadium(count: usize) -> Set {
     })
 }
 
-/// A ray that hits a random triangle of the sequence first, and then all smaller triangles. If products of three
-/// lengths of the first triangle overflow, a test in `f32` may return a smaller triangle instead.
+/// A ray that hits a random triangle of the sequence first, and then all smaller triangles.
 pub(super) fn through_smaller(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     let [corner, ..] = mesh.corners(sampler.below(300) as u32);
     let side = |sampler: &mut Sampler| 0.05 + 0.2 * sampler.unit();
@@ -191,13 +183,12 @@ pub(super) fn along_chain(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(at, 0.0, 0.0) + across * at, Vec3::X + across)
 }
 
-/// A ray through a sphere, whose interval contains only the first or only the second crossing.
 pub(super) fn window(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let ray = ray_to(sampler.direction() * 3.0, sampler.cube() * 0.3);
     if sampler.coin() { ray.until(1.0) } else { Ray { t_min: 1.0, ..ray } }
 }
 
-/// A ray from inside a cube to its upper face. Simple numbers make t exact; `interval` maps t to the ray's interval.
+/// A ray from inside a cube to its upper face, with an exact `t`. `interval` maps this `t` to the interval of the ray.
 pub(super) fn to_the_lid(sampler: &mut Sampler, interval: fn(f32) -> (f32, f32)) -> Ray {
     let grid = |sampler: &mut Sampler| sampler.below(65) as f32 / 64.0 - 0.5;
     let origin = Vec3::new(grid(sampler), grid(sampler), grid(sampler));
@@ -223,7 +214,7 @@ pub(super) fn off_a_sphere(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(origin, if direction.dot(origin) < 0.0 { -direction } else { direction })
 }
 
-/// Rays through the star that `spoil` makes invalid. The original, valid rays serve as ordinary rays.
+/// Rays that `spoil` makes invalid. The ordinary rays are the original, valid rays.
 pub(super) fn spoilt(count: usize, spoil: fn(&mut Sampler, &mut Ray)) -> Set {
     let mut ordinary = vec![];
     let set = Set::new(star(), count, 60, |_, sampler| {
@@ -247,7 +238,7 @@ pub(super) fn spoil_interval(sampler: &mut Sampler, ray: &mut Ray) {
     }
 }
 
-/// Rays in a star so small that products of three of its lengths underflow, but products of two do not.
+/// In a star of this scale, products of three lengths underflow, but products of two do not.
 pub(super) fn in_tiny_star(count: usize) -> Set {
     let scale = libm::scalbnf(1.0, -47);
     Set::new(star_times(scale), count, 60, |mesh, sampler| {
@@ -263,7 +254,7 @@ pub(super) fn from_the_largest(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(side, target.y, target.z), Vec3::new(-0.3 * side, drift.y, drift.z))
 }
 
-/// One triangle. The first ray is `first`, which revealed the failure. `towards` makes all other rays, to edge points.
+/// Rays to the edges of a triangle. The first ray is `first`, which revealed the failure.
 pub(super) fn along_edges(
     count: usize,
     seed: u64,
@@ -281,7 +272,7 @@ pub(super) fn along_edges(
     set
 }
 
-/// A ray to `target`, a point of a needle that passes through zero. The ray starts near zero.
+/// The needle passes through zero, and the ray starts near zero. The ray therefore runs along the needle.
 pub(super) fn along_needle(sampler: &mut Sampler, target: Vec3) -> Ray {
     let origin = sampler.cube() * 100.0;
     Ray::new(origin, (target - origin) / 64.0)

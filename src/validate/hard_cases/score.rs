@@ -14,51 +14,45 @@ use crate::validate::{ErrorCounts, ExpectedHits, Reference, Validation, count_er
 
 /// The mesh, rays and exact hits of one case, computed once for all structures.
 pub struct CaseTruth {
-    /// Mesh, rays and exact hits; `None` for a property.
+    /// `None` for a property.
     set: Option<(Set, Vec<Option<Truth>>)>,
     /// The references, by the name of the triangle test.
     references: BTreeMap<&'static str, Reference>,
 }
 
-/// The result of one structure on one case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Score {
     Rays(Box<RayScore>),
     Property(Property),
-    /// The structure returned no result.
     Failed(Failure),
 }
 
-/// The reason why a structure returned no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failure {
-    /// It took longer than the limit, and was killed.
     Hang,
-    /// Its code panicked, in a build or a query.
     Panic,
-    /// Its process ended in another way.
+    /// The process of the structure ended without a result.
     Crash,
-    /// It cannot be built over the mesh. Contains the reason.
+    /// The structure cannot be built over the mesh, for this reason.
     Refused(String),
-    /// It declines a ray of the case. Contains the reason. The result is neither right nor wrong.
+    /// The structure declines a ray of the case, for this reason. The result is neither right nor wrong.
     Declined(String),
 }
 
-/// The numbers of one structure on the rays of one case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayScore {
     /// Errors by comparison with the exact hits and [`DepthRule::STRICT`].
-    pub judged: ErrorCounts,
-    /// Wrong depths by [`DepthRule::COARSE`], which are visible in a picture.
+    pub strict_errors: ErrorCounts,
+    /// Wrong depths by [`DepthRule::COARSE`].
     pub coarse_depth: u64,
-    /// Comparison with brute force: errors of the structure, and rounding errors of its triangle test.
+    /// Comparison with brute force.
     pub validation: Validation,
     /// Whether `validation` distinguishes errors of the structure from errors of its triangle test.
     pub knows_structure_errors: bool,
-    /// Rays on which any hit contradicts closest hit, or a batch contradicts a single ray.
+    /// Any-hit results that contradict closest hits, and batch results that contradict single rays.
     pub contradictions: u64,
-    /// Missed and false hits, and hits whose `t` is not the correctly rounded exact `t` or whose primitive is not the
-    /// lowest of the exactly nearest ones. An exact test must have none.
+    /// Hits that differ from the correctly rounded exact hit with the lowest primitive number. An exact test must have
+    /// none.
     pub inexact: u64,
     /// See [`Answers::slowness`].
     pub slowness: Option<f64>,
@@ -66,7 +60,6 @@ pub struct RayScore {
 }
 
 impl Failure {
-    /// The printed name.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Hang => "hang",
@@ -79,7 +72,6 @@ impl Failure {
 }
 
 impl CaseTruth {
-    /// Computes the exact hits of the first `rays` rays of `case`.
     pub fn new(case: &HardCase, rays: usize) -> Self {
         let with_truths = |set: Set| {
             let oracle = Oracle::new(&set.mesh);
@@ -114,7 +106,7 @@ impl CaseTruth {
             (truth, hit) => truth.is_some() != hit.is_some(),
         });
         Ok(Score::Rays(Box::new(RayScore {
-            judged: count_errors(truths, &answers.hits, DepthRule::STRICT),
+            strict_errors: count_errors(truths, &answers.hits, DepthRule::STRICT),
             coarse_depth: count_errors(truths, &answers.hits, DepthRule::COARSE).wrong_depth,
             inexact: inexact.count() as u64,
             validation,
@@ -127,7 +119,7 @@ impl CaseTruth {
 }
 
 impl Score {
-    /// The numbers of a case with rays; `None` for a property or a failure.
+    /// `None` for a property or a failure.
     pub fn rays(&self) -> Option<&RayScore> {
         match self {
             Self::Rays(score) => Some(score),
@@ -138,7 +130,7 @@ impl Score {
     /// Whether the structure is sound and all its hits are right by [`DepthRule::STRICT`].
     pub fn is_clean(&self) -> bool {
         match self {
-            Self::Rays(score) => score.judged.errors() == 0 && score.is_sound(),
+            Self::Rays(score) => score.strict_errors.errors() == 0 && score.is_sound(),
             Self::Property(property) => property.broken == 0,
             Self::Failed(_) => false,
         }
@@ -155,7 +147,6 @@ impl Score {
 }
 
 impl RayScore {
-    /// Whether the structure neither lost nor invented a hit, and its queries never contradict each other.
     fn is_sound(&self) -> bool {
         self.validation.errors() == 0 && self.contradictions == 0
     }

@@ -7,17 +7,15 @@ use glam::Vec3;
 use crate::geometry::{Mesh, Ray};
 use crate::validate::Sampler;
 
-/// Mesh and rays of a case.
 #[derive(Clone, Debug)]
 pub struct Set {
     pub mesh: Arc<Mesh>,
     pub rays: Vec<Ray>,
-    /// Valid rays over the same mesh, with which the time of invalid `rays` is compared. Empty if `rays` are valid.
+    /// Valid rays whose time is compared with the time of the invalid `rays`. Empty if `rays` are valid.
     pub ordinary: Vec<Ray>,
 }
 
 impl Set {
-    /// `count` rays over `mesh`, with random numbers from `seed`.
     pub(super) fn new(
         mesh: Arc<Mesh>,
         count: usize,
@@ -34,7 +32,7 @@ pub(super) fn ray_to(origin: Vec3, target: Vec3) -> Ray {
     Ray::new(origin, target - origin)
 }
 
-/// A triangle of `mesh` with an area.
+/// A random triangle with an area. `mesh` must contain one.
 pub(super) fn triangle(mesh: &Mesh, sampler: &mut Sampler) -> [Vec3; 3] {
     loop {
         let index = sampler.below(mesh.len()) as u32;

@@ -23,7 +23,6 @@ fn the_document_states_the_hash_of_the_corpus() {
     assert!(defaults.is_default() && !others.iter().any(Args::is_default));
 }
 
-/// Runs the document's Python program, which counts errors.
 #[test]
 fn the_python_of_the_document_counts_the_errors_that_we_count() {
     if Command::new("python3").arg("--version").output().is_err() {

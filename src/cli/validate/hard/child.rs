@@ -1,4 +1,4 @@
-//! Runs hard cases in child processes: a structure that panics or never returns does not end the whole run.
+//! Runs hard cases in child processes, because a case may panic or hang.
 
 use std::io;
 use std::process::{Command, Output};
@@ -14,7 +14,6 @@ use crate::simd::Level;
 use crate::study::Status;
 use crate::validate::hard_cases::{Answers, Failure, HardCase, find, run};
 
-/// The hidden command that a child process runs.
 pub const COMMAND: &str = "hard-answer";
 
 #[derive(Debug, clap::Args)]
@@ -35,7 +34,7 @@ pub struct Args {
 
 const PANICKED: i32 = 101;
 
-/// Runs in the child: writes the results of the structure to standard output.
+/// Runs in the child process. Writes the results to standard output.
 pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     end_with_parent();
     let case = find(&args.name)?;
@@ -45,7 +44,7 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
         (None, None) => anyhow::bail!("a structure or a runner is needed"),
     };
     let answers = match run(case, &choice.subject(), args.rays as usize, &SystemClock::start()) {
-        // The registry has caught the panic: resume it, because the parent recognises its exit status.
+        // Panic again, because the parent process recognises the exit status of a panic.
         Err(BuildError::Panic) => std::panic::resume_unwind(Box::new("a builder panicked")),
         answers => answers?,
     };
@@ -53,8 +52,8 @@ pub fn run_child(registry: &Registry, args: &Args) -> anyhow::Result<Status> {
     Ok(Status::Right)
 }
 
-/// Runs in the parent: starts a child that traces at most `rays` rays of a case. A structure has a time limit for the
-/// whole case; a runner has a time limit for each reply. The outer result is an error if no child can be started.
+/// Runs in the parent process. A structure has one time limit for the whole case. A runner has a time limit for each
+/// reply. The outer result is an error only if the child process could not be run.
 pub fn answers(
     case: &HardCase,
     choice: &Choice,
@@ -77,7 +76,7 @@ fn outcome(output: Option<Output>) -> Result<Answers, Failure> {
         Some(0) => serde_json::from_slice(&output.stdout).map_err(|_| Failure::Crash),
         Some(1) => {
             let sentence = String::from_utf8_lossy(&output.stderr);
-            // A runner may write messages to standard error as well: take the last error.
+            // Take the last error, because earlier lines may come from a runner.
             let error = sentence.lines().rev().find_map(|line| line.strip_prefix("error: "));
             let sentence = error.unwrap_or_else(|| sentence.trim()).to_owned();
             let declined = sentence.starts_with("declined: ");

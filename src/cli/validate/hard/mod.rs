@@ -28,7 +28,6 @@ pub use child::{Args as ChildArgs, COMMAND as CHILD, run_child};
 
 const CHILDREN: usize = 2;
 
-/// The maximum number of rays of a case.
 const MOST_RAYS: usize = 10_000;
 
 pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Terminal) -> anyhow::Result<Status> {
@@ -37,7 +36,6 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     } else {
         named.iter().map(|name| find_all(name)).collect::<Result<Vec<_>, _>>()?.concat()
     };
-    // A case that is given by its name and by its number counts once.
     let cases = each_once_by(cases, |one, other| one.name == other.name);
     let choices = choices(registry, args.structures(registry)?, &args.test)?;
     let rays = u32::try_from(args.source().number()?.min(MOST_RAYS))?;
@@ -48,7 +46,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     let mut records = vec![];
     for (i, case) in cases.iter().enumerate() {
         let message = format!("{} of {}: {}", i + 1, cases.len(), case.name);
-        log.tell(&message);
+        log.print(&message);
         waiting.set_message(message);
         let scores = scores(case, &choices, rays, args)?;
         for (column, score) in columns.iter_mut().zip(scores) {
@@ -68,7 +66,6 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     Ok(all.fold(Status::Right, Status::and))
 }
 
-/// The verdict on a structure over all cases.
 fn verdicts(cases: &[&HardCase], column: &Column) -> StructureVerdict {
     let unchecked = |(case, score): (&&HardCase, &Score)| Some((case.name.to_owned(), refusal(score)?.to_owned()));
     StructureVerdict {
@@ -79,7 +76,6 @@ fn verdicts(cases: &[&HardCase], column: &Column) -> StructureVerdict {
     }
 }
 
-/// The reason why a structure refused a case.
 fn refusal(score: &Score) -> Option<&str> {
     match score {
         Score::Failed(Failure::Refused(why)) => Some(why),
@@ -87,8 +83,7 @@ fn refusal(score: &Score) -> Option<&str> {
     }
 }
 
-/// The exit status of a score. Wrong hits of a structure with a known defect do not count. A runner may refuse a case.
-/// The refusal of a structure in Rust counts as wrong, because it must build over every mesh.
+/// Only a runner may refuse a case, because every other structure must build every mesh.
 fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
     let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
     let rounds = strict && verdict(score).rounded > 0;
@@ -100,8 +95,6 @@ fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
     }
 }
 
-/// Each structure over each of the `tests` that it offers. A structure stays unchanged if it offers none of the tests,
-/// has a known defect, or was named with a test.
 fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> anyhow::Result<Vec<Choice>> {
     request::known_tests(registry, tests)?;
     let mut choices: Vec<Choice> = vec![];
@@ -117,11 +110,9 @@ fn choices(registry: &Registry, structures: Vec<Choice>, tests: &[String]) -> an
             choices.push(registry.choose(&format!("{}{separator}test={test}", choice.label))?);
         }
     }
-    // Remove equal choices. They come from repeated tests, or from a structure given with and without its test.
     Ok(each_once_by(choices, |one, other| one.label == other.label))
 }
 
-/// Runs a case on all structures, several at a time, and computes the exact hits meanwhile.
 fn scores(case: &HardCase, choices: &[Choice], rays: u32, limits: &Args) -> anyhow::Result<Vec<Score>> {
     let mut answers: Vec<_> = choices.iter().map(|_| None).collect();
     let waiting = Mutex::new(choices.iter().zip(&mut answers));
@@ -145,7 +136,6 @@ fn scores(case: &HardCase, choices: &[Choice], rays: u32, limits: &Args) -> anyh
     choices.iter().zip(answers.into_iter().flatten()).map(score).collect()
 }
 
-/// The cases, and the reasons why ray tracers fail on them.
 pub fn described() -> Vec<String> {
     let lines = |case: &&HardCase| {
         let what = match case.content {

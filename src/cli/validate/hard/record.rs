@@ -7,10 +7,9 @@ use crate::study::Verdict;
 use crate::validate::hard_cases::{Failure, HardCase, Score};
 use crate::validate::{ErrorCounts, Kind};
 
-/// The result of one structure on one case as JSON. Unknown numbers are null.
 pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
     let rays = score.rays();
-    let judged = |number: fn(&ErrorCounts) -> u64| rays.map(|rays| number(&rays.judged));
+    let strict_errors = |number: fn(&ErrorCounts) -> u64| rays.map(|rays| number(&rays.strict_errors));
     json!({
         "number": case.number,
         "case": case.name,
@@ -18,29 +17,27 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
         "structure": choice.entry.name,
         "label": choice.label,
         "triangle_test": choice.triangle_test(),
-        // One of `answered`, `hang`, `panic`, `crash`, `refused` and `declined`.
         "outcome": match score {
             Score::Failed(failure) => failure.name(),
             _ => "answered",
         },
         "clean": score.is_clean(),
-        "rays": judged(|own| own.rays),
-        "hits": judged(|own| own.hits),
-        "missed": judged(|own| own.missed),
-        "false_hits": judged(|own| own.false_hits),
-        // Off by more than 4 ulps and by a relative error above 1e-6.
-        "wrong_depth": judged(|own| own.wrong_depth),
-        // Off by more than 1 %, or by more than 0.1 % on another primitive.
+        "rays": strict_errors(|own| own.rays),
+        "hits": strict_errors(|own| own.hits),
+        "missed": strict_errors(|own| own.missed),
+        "false_hits": strict_errors(|own| own.false_hits),
+        // A wrong depth has an error above 4 ulps and a relative error above 1e-6.
+        "wrong_depth": strict_errors(|own| own.wrong_depth),
+        // A coarse depth has an error above 1 %, or above 0.1 % on a wrong primitive.
         "coarse_depth": rays.map(|rays| rays.coarse_depth),
-        "wrong_primitive": judged(|own| own.wrong_primitive),
+        "wrong_primitive": strict_errors(|own| own.wrong_primitive),
         "structure_errors": rays.filter(|rays| rays.knows_structure_errors).map(|rays| rays.validation.structure_errors),
         "verdict": verdict(score),
         "contradictions": rays.map(|rays| rays.contradictions),
         "inexact": rays.map(|rays| rays.inexact),
-        "ulps": rays.and_then(|rays| rays.judged.ulps),
+        "ulps": rays.and_then(|rays| rays.strict_errors.ulps),
         "slowness": rays.and_then(|rays| rays.slowness),
         "build_ns": rays.map(|rays| rays.build_ns),
-        // Null unless the case checks a property.
         "property": match score {
             Score::Property(property) => Some(property),
             _ => None,
@@ -48,7 +45,7 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
     })
 }
 
-/// The verdict on a structure that follows from its score. Each check of a property counts as a ray.
+/// Each check of a property counts as a ray.
 pub fn verdict(score: &Score) -> Verdict {
     let failed = |fault| Verdict { rays: 1, wrong: 1, rounded: 0, fault };
     match score {

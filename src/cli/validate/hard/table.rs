@@ -8,7 +8,7 @@ use crate::validate::hard_cases::{Content, Failure, HardCase, Property, Rank, Ra
 
 pub struct Column<'a> {
     pub choice: &'a Choice,
-    /// One per case, in the order of the cases.
+    /// One score per case, in the order of the cases.
     pub scores: Vec<Score>,
 }
 
@@ -24,11 +24,10 @@ pub const LEGEND: [&str; 4] = [
      Plus: added after the survey; not in the totals.",
 ];
 
-/// The tables of a run: outcomes, errors of t, times of invalid rays, properties, totals.
 pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let is_property = |case: &HardCase| matches!(case.content, Content::Property(_));
     let ulps = |_: &HardCase, score: &Score| {
-        let ulps = score.rays()?.judged.ulps?;
+        let ulps = score.rays()?.strict_errors.ulps?;
         Some([ulps.median, ulps.p99, ulps.max].map(figures).join("/").into())
     };
     let slowness = |_: &HardCase, score: &Score| Some(format!("{} x", figures(score.rays()?.slowness?)).into());
@@ -41,7 +40,6 @@ pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     ]
 }
 
-/// The tables of the summary: the cases in which a structure fails, with the reasons, and the totals.
 pub fn summary(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let is_failed = |(i, _): &(usize, &&HardCase)| {
         columns.iter().any(|column| known_defect(&column.choice.entry.name).is_none() && !column.scores[*i].is_sound())
@@ -51,7 +49,6 @@ pub fn summary(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     vec![outcomes(cases, columns, &title, |case| failed.contains(&case.name)), totals(cases, columns)]
 }
 
-/// A table with a row for each case that has a cell for at least one structure.
 fn table(
     cases: &[&HardCase],
     columns: &[Column],
@@ -75,12 +72,10 @@ fn table(
     Table::new(title, std::iter::once("case").chain(names), rows)
 }
 
-/// A table of outcomes. Its notes give worst rays, first failures of properties, and reasons of refusals.
 fn outcomes(cases: &[&HardCase], columns: &[Column], title: &str, is_shown: impl Fn(&HardCase) -> bool) -> Table {
     let mut notes = vec![];
     for (i, case) in cases.iter().enumerate().filter(|(_, case)| is_shown(case)) {
         for column in columns {
-            // Skip the wrong rays of structures with known defects.
             let has_defects = known_defect(&column.choice.entry.name).is_some();
             let sentence = match &column.scores[i] {
                 Score::Failed(Failure::Refused(sentence) | Failure::Declined(sentence)) => Some(sentence.clone()),
@@ -106,14 +101,14 @@ fn outcome(score: &Score) -> Cell {
 }
 
 fn errors(score: &RayScore) -> String {
-    let judged = &score.judged;
+    let strict_errors = &score.strict_errors;
     let share = |mark: &str, events: u64, of: u64| (events > 0).then(|| format!("{mark} {}", percent(events, of)));
-    let coarse = percent(score.coarse_depth, judged.hits);
+    let coarse = percent(score.coarse_depth, strict_errors.hits);
     let parts = [
-        share("m", judged.missed, judged.hits),
-        share("f", judged.false_hits, judged.rays),
-        share("d", judged.wrong_depth, judged.hits).map(|d| format!("{d}/{coarse}")),
-        share("S", score.validation.errors(), judged.hits),
+        share("m", strict_errors.missed, strict_errors.hits),
+        share("f", strict_errors.false_hits, strict_errors.rays),
+        share("d", strict_errors.wrong_depth, strict_errors.hits).map(|d| format!("{d}/{coarse}")),
+        share("S", score.validation.errors(), strict_errors.hits),
         (score.contradictions > 0).then(|| format!("c {}", count(score.contradictions))),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
@@ -123,7 +118,6 @@ fn percent(events: u64, of: u64) -> String {
     figures(100.0 * events as f64 / of.max(1) as f64)
 }
 
-/// The totals of each structure, over the moderate and extreme cases and over the moderate cases.
 fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
     const GROUPS: [(&[Rank], &str); 2] = [(&[Rank::Moderate, Rank::Extreme], "valid"), (&[Rank::Moderate], "moderate")];
     let size = |ranks: &[Rank]| cases.iter().filter(|case| ranks.contains(&case.rank)).count();
@@ -145,16 +139,16 @@ fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
             let clean = scores.iter().filter(|score| score.is_clean()).count();
             let failed = scores.iter().filter(|score| matches!(score, Score::Failed(_))).count();
             let sum = |number: fn(&RayScore) -> u64| scores.iter().filter_map(|score| score.rays()).map(number).sum();
-            let hits = sum(|score| score.judged.hits);
+            let hits = sum(|score| score.strict_errors.hits);
             most_hits = most_hits.max(hits);
             let texts = [
                 if failed > 0 { format!("{clean} (+{failed})") } else { clean.to_string() },
-                percent(sum(|score| score.judged.missed), hits),
-                percent(sum(|score| score.judged.wrong_depth), hits),
+                percent(sum(|score| score.strict_errors.missed), hits),
+                percent(sum(|score| score.strict_errors.wrong_depth), hits),
                 percent(sum(|score| score.coarse_depth), hits),
-                count(sum(|score| score.judged.false_hits)),
+                count(sum(|score| score.strict_errors.false_hits)),
                 percent(sum(|score| score.validation.errors()), hits),
-                percent(sum(|score| score.judged.errors()), sum(|score| score.judged.rays)),
+                percent(sum(|score| score.strict_errors.errors()), sum(|score| score.strict_errors.rays)),
             ];
             row.extend(texts.map(Cell::from));
         }

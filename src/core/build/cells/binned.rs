@@ -1,5 +1,4 @@
-//! Evaluates the SAH in large nodes at a few planes per axis, for a sample of the references, and in small nodes at all
-//! planes. The SAH cost is nearly as low as with all planes in all nodes, at a fraction of the build time and memory.
+//! Searches a few planes of large nodes, and all planes of small nodes.
 
 use super::config::CellConfig;
 use super::grow::{Content, Context, NodeState};
@@ -13,7 +12,7 @@ use crate::build::sah_cost::SideAreas;
 use crate::build::sample::Sample;
 use crate::geometry::Aabb;
 
-/// The references of a node in ascending order of triangle numbers. `Fine`, for small nodes, adds their sorted events.
+/// The references of a node, in ascending order of triangle numbers.
 pub(crate) enum Binned {
     Coarse(Part),
     Fine(Events),
@@ -33,7 +32,7 @@ impl Counts {
             let first = planes.first_bin(r.min(planes.axis));
             let last = planes.last_bin(r.max(planes.axis));
             if first > last {
-                // A flat reference in a plane begins in the bin above the plane and ends in the bin below it.
+                // A flat reference in a plane begins above the plane and ends below the plane.
                 counts.flat[last] += 1;
             } else {
                 counts.begin[first] += 1;
@@ -72,7 +71,6 @@ impl Binned {
     }
 }
 
-/// The cost and the cut of the cheapest plane within the budget; `sample` estimates the numbers of references.
 fn cheapest(context: &Context<CellConfig>, part: &Part, sample: &Sample, state: &NodeState) -> Option<(f64, Cut)> {
     let found = on_axes(sample.len() >= PARALLEL, |axis| along(context, part, sample, state, axis));
     found.into_iter().flatten().reduce(|a, b| if b.0 < a.0 { b } else { a })
@@ -105,7 +103,7 @@ fn along(
     let count = sample.len();
     let candidates = (context.config.candidates as usize).min(count);
     let Some(planes) = Planes::new(axis, range, candidates, sample) else {
-        // No grid: all references lie in one plane, or their range is too large or too small.
+        // All references lie in one plane, or their range is too large or too small for a grid.
         if range.0 == range.1 {
             offer(range.0, count, 0, true);
             offer(range.0, 0, count, false);
@@ -149,7 +147,8 @@ impl Content for Binned {
         let sample = Sample::new(&part.references, context.config.sample);
         let mut found = cheapest(context, part, &sample, state);
         if sample.len() < part.references.len() {
-            // The sample only estimates the counts: search again without it if the exact counts exceed the budget.
+            // The sample only estimates the counts. If the exact counts exceed the budget, search again with all
+            // references.
             let affords = |cut: Cut| {
                 let [below, above] = cut.counts(&part.references);
                 state.affords(below, above)
@@ -190,7 +189,6 @@ mod tests {
     use crate::build::check::{mesh, room, soup};
     use crate::build::sah_cost::CostModel;
 
-    /// Compares with a naive search that counts all references at every plane.
     #[test]
     fn no_plane_is_cheaper_than_the_one_that_is_chosen() {
         for mesh in [soup(40, 1), soup(700, 2), room(5)] {

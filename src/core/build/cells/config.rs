@@ -1,7 +1,6 @@
 use crate::build::quality::Quality;
 use crate::build::sah_cost::CostModel;
 
-/// The configuration of the search for the cheapest cut of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CellConfig {
     pub costs: CostModel,
@@ -14,11 +13,9 @@ pub(crate) struct CellConfig {
 }
 
 impl CellConfig {
-    /// The value of `exact` with which every node tries every plane.
     pub const ALL_PLANES: u32 = u32::MAX;
 
-    /// The configuration for a wide tree. A step costs 0.2, because three steps become one wide step; it costs 1 in
-    /// fast builds. Large nodes do not try all planes, because their cheapest plane often cuts off only empty space.
+    /// The configuration for a wide tree. A step costs little, because three binary steps become one wide step.
     pub fn new(quality: Quality) -> Self {
         let (exact, candidates, sample, step) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),

@@ -5,21 +5,19 @@ use rayon::join;
 use crate::build::cut::Cut;
 use crate::geometry::{Aabb, Mesh};
 
-/// The inputs of every step of a build.
 pub(crate) struct Context<'a, C> {
     pub mesh: &'a Mesh,
     pub rules: Rules,
-    /// The configuration of the plane rule.
     pub config: &'a C,
     depth_cap: u32,
 }
 
-/// The conditions for a leaf, in addition to the depth cap 8 + 1.3 log2 n.
+/// The conditions for a leaf, in addition to the maximum depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rules {
     /// Nodes with at most this many references are leaves.
     pub leaf: usize,
-    /// A cut is discarded if at least this share of the node's references lies on both sides; `None` discards no cut.
+    /// A cut is discarded if at least this share of the node's references lies on both sides. `None` discards no cut.
     pub threshold: Option<f32>,
     /// Whether a cut must cost less than testing all triangles.
     pub pays: bool,
@@ -30,15 +28,13 @@ pub(crate) struct Rules {
 }
 
 impl Rules {
-    /// Rules that make a leaf if no cut costs less than the leaf.
     pub const fn sah(duplication: f32) -> Self {
         Self { leaf: 1, threshold: None, pays: true, duplication, one_side_is_progress: false }
     }
 }
 
-/// The triangles of a node, stored as a plane rule needs them. It chooses how to cut the node.
+/// The triangles of a node, with a rule that chooses the plane to cut the node.
 pub(crate) trait Content: Sized + Send {
-    /// The configuration of the plane rule.
     type Config: Sync;
 
     fn len(&self) -> usize;
@@ -46,24 +42,22 @@ pub(crate) trait Content: Sized + Send {
     /// The triangle numbers in ascending order.
     fn ids(&self) -> impl Iterator<Item = u32>;
 
-    /// The chosen cut, or `None` if a leaf is better.
+    /// `None` makes a leaf.
     fn choose(&self, context: &Context<Self::Config>, state: &NodeState) -> Option<Cut>;
 
     /// The contents below and above the cut. If the rule discards the cut, the error returns the undivided content.
     fn divide(self, context: &Context<Self::Config>, state: &NodeState, cut: Cut) -> Result<(Self, Self), Self>;
 
-    /// Whether this content, the result of a division, may be divided further.
     fn may_divide(&self, _context: &Context<Self::Config>) -> bool {
         true
     }
 }
 
-/// The position of a node in the tree.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NodeState {
     pub cell: Aabb,
     pub depth: u32,
-    /// The number of consecutive splits above this node without progress (see [`Rules::is_progress`]).
+    /// The number of consecutive splits without progress above this node.
     stalled: u32,
     /// The maximum number of references of all leaves below this node.
     budget: f64,
@@ -81,13 +75,12 @@ pub(crate) trait Tree<C>: Default + Send {
     /// Appends an inner node without its children.
     fn open(&mut self);
 
-    /// Adds the cut and the children to the node `inner`. The first child is the next node; the second is `second`.
+    /// The first child of `inner` is the next node. The second child is `second`.
     fn close(&mut self, inner: usize, cut: Cut, second: usize);
 
     fn append(&mut self, other: Self);
 }
 
-/// Nodes with fewer references than this are grown by one thread.
 const PARALLEL: usize = 2048;
 
 impl<'a, C> Context<'a, C> {
@@ -98,7 +91,7 @@ impl<'a, C> Context<'a, C> {
 
 /// The maximum depth of a leaf: 8 + 1.3 log2 n, as in pbrt (Pharr, Jakob, Humphreys).
 const fn depth_cap(triangles: usize) -> u32 {
-    // The number of binary digits replaces log2 n, so no library function affects the shape of a tree.
+    // The number of binary digits replaces log2 n, because a library function may differ between platforms.
     let log2 = usize::BITS - if triangles > 1 { triangles } else { 1 }.leading_zeros();
     8 + log2 * 13 / 10
 }
@@ -107,7 +100,7 @@ const fn depth_cap(triangles: usize) -> u32 {
 pub(crate) const DEEPEST: u32 = depth_cap(u32::MAX as usize);
 const _: () = assert!(DEEPEST == 49);
 
-/// Grows the tree over `content` in the box of the mesh. The result does not depend on the number of threads.
+/// The tree does not depend on the number of threads.
 pub(crate) fn grow<C: Content, T: Tree<C>>(context: &Context<C::Config>, content: C) -> T {
     let mut tree = T::default();
     let state = NodeState::root(context, content.len());
@@ -130,7 +123,6 @@ fn subdivide<C: Content, T: Tree<C>>(
         Err(content) => return tree.leaf(content),
     };
 
-    // Divide the budget in proportion to the numbers of references.
     let (below_cell, above_cell) = state.cell.cut(cut.axis, cut.plane);
     let stalled = if context.rules.is_progress(count, below.len(), above.len()) { 0 } else { state.stalled + 1 };
     let share = state.budget / (below.len() + above.len()).max(1) as f64;
@@ -164,7 +156,7 @@ fn subdivide<C: Content, T: Tree<C>>(
     tree.close(inner, cut, second);
 }
 
-/// The cut and the contents of both sides, or an error with the undivided content if the node becomes a leaf.
+/// An error returns the undivided content, which becomes a leaf.
 fn try_divide<C: Content>(
     context: &Context<C::Config>,
     content: C,
@@ -186,12 +178,10 @@ impl NodeState {
         Self { cell: context.mesh.bounds(), depth: 0, stalled: 0, budget }
     }
 
-    /// Whether sides of these sizes stay within the budget.
     pub fn affords(&self, below: usize, above: usize) -> bool {
         (below + above) as f64 <= self.budget
     }
 
-    /// Whether rules and budget accept a cut of a node with `count` references into sides of these sizes.
     pub fn accepts<C>(&self, context: &Context<C>, count: usize, [below, above]: [usize; 2]) -> bool {
         !context.rules.discards(below + above - count, count) && self.affords(below, above)
     }
@@ -203,14 +193,13 @@ impl NodeState {
 }
 
 impl Rules {
-    /// Whether neither side has all triangles of the node. With `one_side_is_progress`, one side may have all triangles
-    /// if the other side has fewer, because a plane inside the cell still makes the cell smaller.
+    /// With `one_side_is_progress`, one side may have all triangles, because the plane still makes the cell smaller.
     fn is_progress(&self, count: usize, below: usize, above: usize) -> bool {
         let most = if self.one_side_is_progress { below.min(above) } else { below.max(above) };
         most < count
     }
 
-    /// Whether a cut of a node with `count` triangles is discarded: `both`, the number on both sides, is too large.
+    /// `both` is the number of triangles that lie on both sides.
     pub fn discards(&self, both: usize, count: usize) -> bool {
         self.threshold.is_some_and(|share| both as f64 >= f64::from(share) * count as f64)
     }

@@ -1,4 +1,5 @@
-//! Finds the cheapest SAH plane by a sweep over sorted events. Children keep the order: O(n log n) per tree.
+//! Finds the cheapest SAH plane by a sweep over sorted events. Children inherit the order, so a tree takes O(n log n)
+//! time.
 //!
 //! # References
 //! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on
@@ -19,8 +20,8 @@ use crate::build::reference::Reference;
 use crate::build::sah_cost::{CostModel, SideAreas};
 use crate::geometry::Aabb;
 
-/// The start or end of a reference on an axis, or the plane of a flat reference. From the highest bit to the lowest:
-/// coordinate, kind, number of the reference. The numeric order is thus the order of the sweep.
+/// The start or end of a reference on an axis, or the plane of a flat reference. Bits from high to low: coordinate
+/// (32), kind (2), number of the reference (30). The numeric order is the order of the sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Event(u64);
 
@@ -55,23 +56,21 @@ impl Event {
         self.0 as u32 & ((1 << 30) - 1)
     }
 
-    /// The same event, for the new number `reference`.
     fn renamed(self, reference: u32) -> Self {
         Self(self.0 & !((1 << 30) - 1) | u64::from(reference))
     }
 }
 
-/// References in ascending order of triangles, and their events on every axis in the order of the sweep.
+/// References in ascending order of triangle numbers. The events of each axis are in the order of the sweep.
 pub(crate) struct Events {
     pub(super) references: Vec<Reference>,
     axes: [Vec<Event>; 3],
 }
 
-/// One thread sweeps a node with fewer references than this.
 pub(super) const PARALLEL: usize = 8192;
 
 impl Events {
-    /// The events of `references`, which are in ascending order of triangles.
+    /// `references` must be in ascending order of triangle numbers.
     pub fn new(references: Vec<Reference>) -> Self {
         let axes = [0, 1, 2].map(|axis| {
             let mut events = Vec::with_capacity(2 * references.len());
@@ -86,7 +85,6 @@ impl Events {
         Self { references, axes }
     }
 
-    /// The cost and the cut of the cheapest plane of one axis.
     fn sweep(&self, model: &CostModel, cell: &Aabb, axis: usize) -> Option<(f64, Cut)> {
         let areas = SideAreas::new(cell, axis);
         let (min, max) = (cell.min[axis], cell.max[axis]);
@@ -96,7 +94,6 @@ impl Events {
 
         let mut i = 0;
         while i < events.len() {
-            // Count the references that end at, lie in and start at this plane.
             let plane = events[i].coordinate();
             let mut counts = [0; 3];
             while i < events.len() && events[i].0 >> 32 == Event::new(plane, Kind::End, 0).0 >> 32 {
@@ -157,7 +154,7 @@ impl Events {
     }
 }
 
-/// Appends the events of `references` on an axis. The first reference has the number `first`.
+/// The first reference has the number `first`.
 fn push_events(references: &[Reference], first: u32, axis: usize, events: &mut Vec<Event>) {
     for (name, reference) in (first..).zip(references) {
         let (lo, hi) = (reference.min(axis), reference.max(axis));

@@ -5,7 +5,6 @@ use crate::build::sah_cost::CostModel;
 use crate::build::{Quality, check};
 use crate::geometry::Mesh;
 
-/// Configurations for the cells of a wide tree.
 fn cells() -> Vec<CellConfig> {
     let costs = CostModel::new(1.0, 0.7, 0.2);
     let all = CellConfig { costs, exact: CellConfig::ALL_PLANES, candidates: 32, sample: 16384 };

@@ -1,4 +1,4 @@
-//! The cells of a KD-tree as tight boxes, in a binary tree from which a wide tree is collapsed.
+//! Builds a binary tree of tight boxes from the cells of a KD-tree.
 
 use super::binned::Binned;
 use super::config::CellConfig;
@@ -11,7 +11,7 @@ use crate::geometry::{Aabb, Mesh};
 /// Maximum number of references of a leaf. A cell with more references becomes several leaves.
 const MOST: usize = 64;
 
-/// The nonempty cells of `mesh` as tight boxes, with on average at most `duplication` references per triangle.
+/// `duplication` is the maximum mean number of references per triangle.
 pub(crate) fn build(mesh: &Mesh, config: &CellConfig, duplication: f32) -> BinaryTree {
     let context = Context::new(mesh, Rules::sah(duplication), config);
     grow(&context, Binned::all(&context))
@@ -46,7 +46,7 @@ impl BinaryTree {
     }
 }
 
-/// A nonempty cell becomes a leaf with the tight box of its clipped triangles. An inner node has two nonempty children.
+/// A leaf has the tight box of its clipped triangles instead of the cell.
 impl Tree<Binned> for BinaryTree {
     const SKIPS_EMPTY: bool = true;
 

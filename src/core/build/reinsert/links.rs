@@ -9,11 +9,10 @@ use crate::build::extent::Extent;
 
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Maximum length of a path that a move creates. Without a limit, moves turn nested boxes into a chain, because a chain
-/// is the cheapest tree of nested boxes.
+/// Maximum depth that a move may create. Without a limit, moves turn nested boxes into a chain.
 pub(super) const DEEPEST: u32 = 80;
 
-/// A node with links to its children and its parent. One cache line has all data that a search reads.
+/// A node with links to its parent and children. A `Link` fills one cache line.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Link {
@@ -65,7 +64,7 @@ impl Links {
             Link { extent, area: extent.half_area(), children, parent: NONE, height: 0 }
         };
         let mut links = Self(tree.nodes.par_iter().map(link).collect());
-        // Children have larger indices than their parents, so this order visits children first.
+        // Children have larger indices than their parents, so the reverse order visits children first.
         for at in (0..tree.nodes.len() as u32).rev() {
             if links[at].is_leaf() {
                 continue;
@@ -107,7 +106,7 @@ impl Links {
         self[new].parent = parent;
     }
 
-    /// Recomputes boxes and heights from `at` upward until they no longer change; returns the total change of area.
+    /// Recomputes boxes and heights upward from `at`. Returns the total change of area.
     fn refit(&mut self, mut at: u32) -> f64 {
         let mut growth = 0.0;
         while at != NONE {
@@ -125,7 +124,7 @@ impl Links {
         growth
     }
 
-    /// Makes `at` the sibling of `target`. Does nothing if earlier moves or `DEEPEST` forbid it, or it saves no area.
+    /// Makes `at` the sibling of `target`. Does nothing if the move is impossible, exceeds `DEEPEST` or saves no area.
     pub fn relocate(&mut self, at: u32, target: u32) {
         let (parent, sibling) = (self[at].parent, self.sibling(at));
         let grand = self[parent].parent;
@@ -139,7 +138,7 @@ impl Links {
             return;
         }
 
-        // The parent of `at` moves too: it becomes the parent of `target` and `at`.
+        // The parent of `at` becomes the parent of `target` and `at`.
         let old_area = self[parent].area;
         self.replace(grand, parent, sibling);
         let mut growth = self.refit(grand);
@@ -151,7 +150,7 @@ impl Links {
             return;
         }
 
-        // Earlier moves have made this move useless: undo it.
+        // The move saves no area, so undo the move.
         self.replace(above, parent, target);
         self.refit(above);
         self.replace(grand, sibling, parent);
@@ -159,7 +158,7 @@ impl Links {
         self.refit(grand);
     }
 
-    /// The tree with the current links, in depth-first order. Its leaves are the leaves of `tree`.
+    /// The tree with the current links, in depth-first order. `tree` is the tree before all moves.
     pub fn write(&self, tree: &BinaryTree) -> BinaryTree {
         let mut order = Vec::with_capacity(tree.nodes.len());
         let mut number = vec![0; tree.nodes.len()];

@@ -3,9 +3,10 @@
 //! # References
 //! Bittner, Hapala, Havran: Fast Insertion-Based Optimization of Bounding Volume Hierarchies, Computer Graphics Forum
 //! 2013. Meister, Bittner: Parallel Reinsertion for Bounding Volume Hierarchy Optimization, Computer Graphics Forum
-//! 2018. Differences from the second paper: the moves of a batch are made one after the other, and a move that no
-//! longer saves area is skipped, so the result does not depend on the number of threads. The number of nodes per pass
-//! differs. All passes use the order of the box areas before the first pass.
+//! 2018.
+//!
+//! Unlike in the second paper, the moves of a batch are made one after the other. The result therefore does not depend
+//! on the number of threads.
 
 mod links;
 mod search;
@@ -16,14 +17,14 @@ use crate::build::binary_tree::BinaryTree;
 use links::Links;
 use search::Search;
 
-/// Nodes in the first batch. Moves of a batch are searched in parallel. A later batch is as large as all earlier ones
-/// together: near the root, many moves conflict; further down, few conflict, and large batches keep all threads busy.
+/// Number of nodes in the first batch of a pass. Early batches are small because moves of large boxes often conflict.
 const BATCH: usize = 64;
 
-/// Share of the nodes that the first pass processes: the largest boxes. Pass k processes the first 1/k of these nodes.
+/// The first pass processes this share of all nodes, in descending order of box area. Pass `k` processes the first
+/// `1/k` of these nodes.
 const SHARE: f64 = 0.4;
 
-/// Moves the nodes with the largest boxes to cheaper positions, largest first. Leaves keep their boxes and references.
+/// Leaves keep their boxes and references.
 pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
     if tree.nodes.len() < 2 || passes == 0 {
         return tree;
@@ -35,7 +36,7 @@ pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
         let mut done = 0;
         while done < looked_at {
             let end = looked_at.min(done + done.max(BATCH));
-            // Search in the order of the tree, because neighbours read the same cache lines.
+            // Search in tree order, because searches from neighbouring nodes read the same cache lines.
             let mut batch: Vec<(u32, usize)> = order[done..end].iter().copied().zip(done..end).collect();
             batch.par_sort_unstable();
             let search = |open: &mut Vec<_>, &(at, rank): &(u32, usize)| {
@@ -53,9 +54,10 @@ pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
     links.write(&tree)
 }
 
-/// The `count` nodes with the largest boxes except the root, the largest first.
+/// The `count` largest nodes below the root, in descending order of box area.
 fn largest(links: &Links, count: usize) -> Vec<u32> {
-    // Ratios to the root's area fit an `f32` at any scale. They are not negative, so their bits have the same order.
+    // The ratio of two areas fits an `f32` at any scale of the mesh. Ratios are not negative, so the bits have the
+    // order of the ratios.
     let whole = Some(links[0].area).filter(|&whole| whole > 0.0).unwrap_or(1.0);
     let key = |at: u32| {
         let share = (links[at].area / whole) as f32;
@@ -87,7 +89,7 @@ mod tests {
 
     #[test]
     fn moves_save_area_and_leave_the_leaves_as_they_were() {
-        // Reinsertion may leave a regular room unchanged.
+        // Reinsertion may leave the regular mesh `room` unchanged.
         for (mesh, irregular) in [(soup(4000, 21), true), (room(12), false)] {
             for splits in [Splits::Spatial, Splits::SpatialAndObject, Splits::Object] {
                 let before = binary(&mesh, splits);
@@ -108,7 +110,6 @@ mod tests {
         }
     }
 
-    /// A naive [`reinsert`]: on one thread, one node after the other, with a full sort.
     fn slowly(tree: &BinaryTree, passes: u32) -> BinaryTree {
         let area = |at: u32| Extent::from(tree.nodes[at as usize].bounds).half_area();
         let mut order: Vec<u32> = (1..tree.nodes.len() as u32).collect();

@@ -3,24 +3,25 @@
 use super::links::{Link, Links, NONE};
 use crate::build::extent::Extent;
 
-/// Maximum number of nodes that a search visits, without the path to the root.
+/// Maximum number of nodes that a search visits, not counting the path to the root.
 const VISITS: usize = 512;
 
-/// The search for a new sibling of one node: on its path to the root, and in the subtrees of the siblings of this path.
 pub(super) struct Search<'a> {
     links: &'a Links,
     own: Extent,
     own_area: f64,
-    /// The largest saving of area so far, with `target` as the sibling.
+    /// The largest saving of area so far.
     best: f64,
+    /// The new sibling that gives the saving `best`.
     target: Option<u32>,
-    /// Nodes whose subtrees may contain a better sibling, each with the area that the move saves above it.
+    /// Roots of subtrees that may contain a better sibling. The `f64` is the area that a move into the subtree saves
+    /// outside the subtree.
     open: &'a mut Vec<(u32, f64)>,
     visits: usize,
 }
 
 impl<'a> Search<'a> {
-    /// The best new sibling of `at` among the visited nodes, or `None` if no move saves area. `open` is a buffer.
+    /// `None` if the search finds no move that saves area. `open` is a buffer that callers reuse.
     pub fn best(links: &'a Links, at: u32, open: &'a mut Vec<(u32, f64)>) -> Option<u32> {
         let Link { extent: own, area: own_area, parent, .. } = links[at];
         if parent == NONE || links[parent].parent == NONE {
@@ -30,7 +31,6 @@ impl<'a> Search<'a> {
         Self { links, own, own_area, best: 0.0, target: None, open, visits: 0 }.climb(at, parent)
     }
 
-    /// Climbs from `at` to the root and searches the subtrees beside the path.
     fn climb(mut self, at: u32, parent: u32) -> Option<u32> {
         let links = self.links;
         let mut saved = links[parent].area;
@@ -45,7 +45,7 @@ impl<'a> Search<'a> {
             if links[path].parent == NONE {
                 return self.target;
             }
-            // Offer `path` as the sibling. Its box without `at` is `rest`. `saved` includes the removed parent.
+            // Without `at`, the box of `path` is `rest`. `saved` already includes the area of `parent`.
             if path != parent {
                 saved += links[path].area - rest.half_area();
                 self.offer(path, saved - rest.union(self.own).half_area());
@@ -53,7 +53,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Searches the subtree at `place`. `saved` is the area that the move saves above `place`.
+    /// `saved` is the area that a move into the subtree of `place` saves outside this subtree.
     fn descend(&mut self, place: u32, saved: f64) {
         self.open.push((place, saved));
         while let Some((place, saved)) = self.open.pop() {

@@ -1,45 +1,41 @@
 use crate::build::quality::Quality;
 use crate::build::sah_cost::CostModel;
 
-/// [`Splits::SpatialAndObject`] tries spatial splits only if the children of the best object split overlap by more than
-/// this share of the root's area. The paper uses 1e-5; a larger share builds faster.
+/// If the overlap of the best object split is at most this value, no spatial split is tried. The unit is the half area
+/// of the root. Stich et al. (2009) use 1e-5. A larger value makes builds faster.
 pub(super) const ALPHA: f32 = 1e-3;
 
-/// An object split that competes with a spatial split costs extra: this factor times the cost of testing the smaller
-/// side's triangles in the overlap of both boxes. 0 in the paper; values from 2 to 10 give equally fast trees.
+/// Factor in the extra cost of an object split whose boxes overlap.
 pub(super) const OVERLAP_COST: f32 = 3.0;
 
-/// Maximum number of references of a leaf.
+/// Maximum number of references in a leaf.
 pub(super) const LEAF: usize = 64;
 
-/// The configuration of a binary tree of tight boxes. [`SbvhConfig::new`] has the tuned values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SbvhConfig {
     pub splits: Splits,
-    /// Number of candidate planes, and of bins, per axis; in 2..=62. More find cheaper splits and take longer.
+    /// Number of candidate planes or bins per axis. In 2..=62.
     pub candidates: u32,
-    /// Nodes with at most this many references try every object split; larger nodes use bins.
+    /// Nodes with at most this many references try every object split.
     pub exact: u32,
-    /// Nodes with at most this many references clip triangles to find spatial splits; larger nodes cut only boxes.
+    /// Nodes with at most this many references clip triangles to find spatial splits. Larger nodes clip only boxes.
     pub sliced: u32,
-    /// Nodes with at least this many references refine the search around the best plane of a spatial split.
+    /// If a search samples at least this many references, a second search tries planes near the best plane.
     pub refined: u32,
-    /// Maximum number of references in the sample that a larger node searches for a split. At least 16.
+    /// Maximum number of references in a sample. At least 16.
     pub sample: u32,
-    /// Cost of a binary step, relative to a block test. Positive. An eight-wide step replaces about three binary steps.
+    /// Cost of a traversal step in the binary tree, relative to the test of one block. Positive.
     pub node_cost: f32,
-    /// Maximum number of references of the tree, as a multiple of the number of triangles. At least 1.
+    /// Maximum number of references in the tree, as a multiple of the number of triangles. At least 1.
     pub duplication: f32,
 }
 
-/// The splits that a builder may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Splits {
-    /// Spatial splits. Leaves are disjoint, except if no plane can divide the references of a large leaf.
+    /// Leaves are disjoint if a spatial split exists for every node with more than `LEAF` references.
     Spatial,
-    /// Spatial or object splits, whichever is cheaper.
     SpatialAndObject,
-    /// Object splits. Every triangle is in one leaf.
+    /// No triangle is in two leaves.
     Object,
 }
 
@@ -51,7 +47,7 @@ impl SbvhConfig {
             Quality::Balanced => (20, 16, 0, 16, 16384),
             Quality::High => (20, 16, 4096, 16, 16384),
         };
-        // With only spatial splits, cutting takes most of the time. A higher cost gives larger leaves and fewer cuts.
+        // With only spatial splits, cutting takes most of the build time. A higher node cost leads to fewer cuts.
         let node_cost = match quality {
             Quality::Fast if spatial => 1.5,
             Quality::Fast => 0.4,

@@ -1,4 +1,4 @@
-//! Builds the tree from the root down.
+//! Builds an SBVH from the root down.
 
 use super::config::{ALPHA, LEAF, OVERLAP_COST, SbvhConfig, Splits};
 use super::object::cheapest_group;
@@ -16,7 +16,7 @@ use crate::triangle::BLOCK;
 #[derive(Clone, Copy, Debug)]
 struct Limits {
     depth: u32,
-    /// The maximum number of references of all leaves below this node.
+    /// The maximum number of references in all leaves below the node.
     budget: f64,
 }
 
@@ -26,10 +26,7 @@ enum Split {
     Set(Group),
 }
 
-/// The tree over all triangles of `mesh` with non-zero area. It does not depend on the number of threads.
-///
-/// Takes O(n log n) time and memory. A path has at most 18 + 2 log2 n levels of chosen splits; nodes below are halved.
-/// All leaves together have at most `config.duplication` references per triangle.
+/// The tree does not depend on the number of threads.
 pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
     let context = Context::new(mesh, config);
     let root = Part::whole(mesh);
@@ -41,7 +38,7 @@ pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
     tree
 }
 
-/// Appends the tree over `part` to `tree`, root first. Returns the cost of this tree.
+/// Appends the subtree over `part`. Returns the cost of the subtree, multiplied by the half area of its box.
 fn grow(context: &Context, part: Part, limits: Limits, tree: &mut BinaryTree, slots: &mut Slots) -> f64 {
     let Part { references, extent } = part;
     let (area, count) = (extent.half_area(), references.len());
@@ -57,7 +54,6 @@ fn grow(context: &Context, part: Part, limits: Limits, tree: &mut BinaryTree, sl
         Split::Set(group) => by_group(references, group, counts),
     };
 
-    // Divide the budget of references in proportion to the sizes of both sides.
     let share = limits.budget / (below.references.len() + above.references.len()) as f64;
     let child = |part: &Part| Limits { depth: limits.depth + 1, budget: share * part.references.len() as f64 };
     let (below_place, above_place) = (child(&below), child(&above));
@@ -82,7 +78,7 @@ fn grow(context: &Context, part: Part, limits: Limits, tree: &mut BinaryTree, sl
     merge(context, tree, own, first, area, cost).unwrap_or(cost)
 }
 
-/// The split and the numbers of references on both sides; `None` if a leaf is better.
+/// The split and the numbers of references on both sides. `None` if the node becomes a leaf.
 fn choose(
     context: &Context,
     references: &[Reference],
@@ -94,7 +90,7 @@ fn choose(
     if count <= BLOCK && !context.is_large(area) {
         return None;
     }
-    // Always split a block in a large box. If the finished subtree costs more than a leaf, `merge` undoes the split.
+    // In a large box, accept any split of a single block. `merge` undoes a split that is not cheaper than a leaf.
     let leaf_cost = if count <= BLOCK { f64::INFINITY } else { context.unsplit_cost(area, count) };
     let full = count > LEAF;
     if limits.depth < context.depth
@@ -138,11 +134,10 @@ fn cheapest(
     }
 }
 
-/// The extra cost of an object split of `count` references that competes with the best spatial split. If the boxes of
-/// an object split are disjoint, a ray with a hit in the nearer box skips the farther box. In an overlap, a ray visits
-/// both boxes, so the triangles of the smaller side cost extra there. The extra cost is 0 if the spatial split adds
-/// more than a sixteenth of the references, as in nested shells: these references would be missing in the budget
-/// further down. The extra cost is 0 in small nodes, because references that are added there need additional blocks.
+/// The extra cost of an object split whose boxes overlap. A ray through the overlap usually visits both boxes.
+///
+/// The extra cost is 0 if the spatial split adds more than `count / 16` references. Added references reduce the budget
+/// of the nodes below.
 fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial: &Offer<Split>) -> f64 {
     if count < 4 * BLOCK || spatial.counts.iter().sum::<usize>() > count + count / 16 {
         return 0.0;
@@ -151,7 +146,8 @@ fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial:
     f64::from(OVERLAP_COST) * context.costs.box_leaf(object.sides[0].overlap(object.sides[1]), fewer)
 }
 
-/// Merges the subtree at `own` into one leaf and returns its cost; `None` if the leaf would cost more or be too large.
+/// Merges the subtree at `own` into a leaf. Returns the cost of the leaf, multiplied by `area`. `None` if the
+/// leaf would cost more than `cost` or be too large.
 fn merge(context: &Context, tree: &mut BinaryTree, own: usize, first: usize, area: f64, cost: f64) -> Option<f64> {
     if tree.references.len() - first > 2 * LEAF {
         return None;

@@ -7,7 +7,7 @@ use crate::build::grouping::{BINS, Bins, Group, centres, order};
 use crate::build::reference::{PARALLEL, Reference};
 use crate::build::sample::Sample;
 
-/// The cheapest grouping of references in a box of half area `area`.
+/// `area` is the half area of the box of `references`.
 pub(super) fn cheapest_group(context: &Context, references: &[Reference], area: f64) -> Option<Offer<Group>> {
     let exact = references.len() <= context.config.exact as usize;
     let sample = Sample::new(references, context.config.sample);
@@ -49,7 +49,6 @@ fn binned(context: &Context, sample: &Sample, area: f64, axis: usize) -> Option<
     best
 }
 
-/// Tries every split of the references in ascending order of their centres.
 fn sorted(context: &Context, references: &[Reference], area: f64, axis: usize) -> Option<Offer<Group>> {
     let order = order(references, axis);
     let mut above = vec![Extent::EMPTY; order.len()];

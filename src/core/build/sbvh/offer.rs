@@ -6,16 +6,15 @@ use crate::build::sah_cost::CostModel;
 use crate::geometry::Mesh;
 use crate::triangle::BLOCK;
 
-/// A box is large if its half area exceeds this share of the root's. Few boxes are large, so splitting them is cheap.
+/// A box is large if its half area exceeds this share of the root's half area.
 const LARGE: f64 = 1.0 / 2048.0;
 
-/// The inputs of every step of a build.
 pub(super) struct Context<'a> {
     pub mesh: &'a Mesh,
     pub config: &'a SbvhConfig,
     pub costs: CostModel,
     pub root_area: f64,
-    /// Number of levels on which the heuristic chooses splits. Nodes below are halved, so every build terminates.
+    /// From this depth on, nodes with too many references for a leaf are halved. Every build therefore terminates.
     pub depth: u32,
 }
 
@@ -26,13 +25,13 @@ impl<'a> Context<'a> {
         Self { mesh, config, costs: config.costs(), root_area, depth }
     }
 
-    /// Whether rays visit a box of half area `area` so often that a block of triangles in it may be split.
+    /// A block of triangles in a large box may be split, because many rays visit the box.
     pub fn is_large(&self, area: f64) -> bool {
         area > LARGE * self.root_area
     }
 
-    /// The cost of a leaf, to compare with the cost of a split. A leaf of one block in a large box (a floor and a wall)
-    /// also costs a step, to cancel the step of its split. The split adds a child to the wide node above, but no node.
+    /// The cost of a leaf, for comparison with the cost of a split. A leaf of one block in a large box also costs a
+    /// step. The step of the leaf cancels the step of the split.
     pub fn unsplit_cost(&self, area: f64, count: usize) -> f64 {
         let leaf = self.costs.box_leaf(area, count);
         if count <= BLOCK && self.is_large(area) { self.costs.box_node(area, leaf) } else { leaf }
@@ -43,7 +42,7 @@ impl<'a> Context<'a> {
 pub(super) struct Offer<T> {
     pub cost: f64,
     pub split: T,
-    /// The boxes of both sides. If the search uses a sample, they contain only the sampled references.
+    /// The boxes of both sides, possibly only of sampled references.
     pub sides: [Extent; 2],
     /// The numbers of references on both sides, possibly estimated from a sample.
     pub counts: [usize; 2],
@@ -55,7 +54,7 @@ impl<T> Offer<T> {
     }
 }
 
-/// The cheaper of two offers; the first one if their costs are equal.
+/// If the costs are equal, `a` wins.
 pub(super) fn cheaper<T>(a: Option<Offer<T>>, b: Option<Offer<T>>) -> Option<Offer<T>> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.cost < a.cost { b } else { a }),

@@ -1,4 +1,4 @@
-//! The cheapest plane of a node.
+//! Searches for the cheapest spatial split of a node.
 
 use glam::Vec3A;
 
@@ -12,14 +12,14 @@ use crate::build::sample::Sample;
 use crate::build::slices::slice;
 use crate::geometry::{Aabb, Mesh};
 
-/// Bins and planes in ascending order: slot `2 i` is bin `i`, slot `2 i + 1` is plane `i`.
+/// Bins and planes in ascending order. Slot `2 i` is bin `i`, and slot `2 i + 1` is plane `i`.
 const SLOTS: usize = 2 * PLANES + 2;
 
-/// For each slot, the number of references that begin or end in it, and the unions of their boxes.
+/// The references that begin and end in each slot: their number and the union of their boxes.
 ///
-/// A reference has a part below a plane if it begins below the plane. The box of these parts is the union of the whole
-/// boxes, cut off at the plane. A reference therefore updates only the slot in which it begins and the slot in which it
-/// ends. A sliced triangle instead grows `begin_extents` and `end_extents` of every bin that it reaches, by its slice.
+/// The box of all parts below a plane is a union of boxes, cut off at the plane. The union has the boxes of the
+/// references that begin below the plane. A reference therefore updates only the slots in which it begins and ends. A
+/// sliced triangle instead updates the extents of every bin that it reaches.
 pub(super) struct Slots {
     begin: [u32; SLOTS],
     end: [u32; SLOTS],
@@ -47,7 +47,7 @@ impl Slots {
     fn add<const AXIS: usize, const SLICED: bool>(&mut self, mesh: &Mesh, sample: &Sample, planes: &Planes) {
         for r in sample.iter() {
             let (first, last) = (planes.first_bin(r.min(AXIS)), planes.last_bin(r.max(AXIS)));
-            // If `first > last`, the reference lies in the plane between the bins: `begin == end` is the plane's slot.
+            // If `first > last`, the reference lies in a plane. Then `begin` and `end` are the slot of this plane.
             let (begin, end) = (first + first.min(last), last + last.max(first));
             self.begin[begin] += 1;
             self.end[end] += 1;
@@ -64,9 +64,8 @@ impl Slots {
         }
     }
 
-    /// The cheapest plane for `node`, and its index among the planes.
+    /// The number in the result is the index of the plane.
     fn sweep(&mut self, context: &Context, planes: &Planes, node: &Node) -> Option<Offer<(Cut, usize)>> {
-        // From the last slot down, collect the boxes of the references that end in later slots.
         let slots = 2 * planes.bins() - 1;
         let mut above = Extent::EMPTY;
         for slot in (1..slots).rev() {
@@ -101,7 +100,7 @@ impl Slots {
     }
 }
 
-/// The cheapest plane for references in `extent`; both sides together have at most `budget` references.
+/// Both sides together have at most `budget` references.
 pub(super) fn cheapest_cut(
     context: &Context,
     references: &[Reference],
@@ -113,7 +112,7 @@ pub(super) fn cheapest_cut(
     let some = Node { sample: Sample::new(references, context.config.sample), ..all };
     let mut offer = some.cheapest(context, extent, slots)?;
     if some.sample.len() < references.len() {
-        // A sample only estimates the numbers of references: count them.
+        // A sample only estimates the numbers of references, so count the references.
         offer.counts = offer.split.counts(references);
         if !some.affords(offer.counts) {
             return all.cheapest(context, extent, slots);
@@ -153,7 +152,6 @@ impl Node<'_> {
             return Some(coarse);
         }
 
-        // Refine between the neighbours of the found plane.
         let planes = Planes::new(axis, around, candidates, &self.sample);
         let fine = planes.and_then(|planes| self.along(context, &planes, slots)).map(|o| o.map(|(cut, _)| cut));
         cheaper(Some(coarse), fine)

@@ -65,7 +65,8 @@ fn references_and_depth_stay_bounded() {
                 leaves.iter().for_each(|(_, ids)| ids.iter().for_each(|&id| seen[id as usize] = true));
                 assert!(mesh.solid().all(|id| seen[id as usize]), "{name} {config:?}");
 
-                // A path has at most 16 + 2 (log2 n + 1) levels of chosen splits, and then halvings.
+                // The builder chooses splits on at most 16 + 2 (log2 n + 1) levels of a path. Below them, it halves the
+                // references.
                 let log2 = (count as f64).log2().ceil() + 1.0;
                 let halvings = (f64::from(duplication) * count as f64).log2();
                 let most = 16.0 + 2.0 * log2 + halvings;
@@ -98,7 +99,7 @@ fn a_floor_and_a_wall_are_separate_leaves_and_tiles_of_a_floor_are_not() {
     });
     for config in configs() {
         let tree = build(&scene, &config);
-        // Skip `Splits::Spatial`, because its blocks mix all triangles, and fast builds, because a step costs more.
+        // Fast builds, and builds with only spatial splits, may mix the floor and the wall in a leaf.
         let groups = config.splits != Splits::Spatial && config.exact > 0;
         for (_, ids) in leaves(&tree, 64).iter().filter(|_| groups) {
             let has = |part: [u32; 2]| part.iter().any(|id| ids.contains(id));
@@ -128,7 +129,6 @@ fn empty_single_and_extreme_meshes_build() {
     }
 }
 
-/// The naive search for a cut: every plane, every reference, without shared work.
 fn least_cut(context: &Context, mesh: &Mesh, Part { references, extent }: &Part) -> f64 {
     let mut least = f64::INFINITY;
     for axis in 0..3 {
@@ -161,7 +161,6 @@ fn least_cut(context: &Context, mesh: &Mesh, Part { references, extent }: &Part)
     least
 }
 
-/// The naive search for a grouping: every centre on every axis.
 fn least_group(context: &Context, Part { references, extent }: &Part) -> f64 {
     let mut least = f64::INFINITY;
     for axis in 0..3 {
@@ -187,7 +186,7 @@ fn no_cut_and_no_grouping_by_centres_is_cheaper_than_the_one_that_is_chosen() {
             let context = Context::new(&mesh, &config);
             let found = cheapest_cut(&context, &part.references, part.extent, f64::INFINITY, &mut Slots::new());
             let (found, least) = (found.unwrap().cost, least_cut(&context, &mesh, &part));
-            // Slices are computed in f32. Clipped triangles are computed in f64 and rounded outward.
+            // The builder computes slices in `f32`. The naive search clips triangles in `f64` and rounds outward.
             let slack = if config.sliced == 0 { 0.0 } else { 1e-5 * least };
             assert!((found - least).abs() <= slack, "{found} instead of {least}");
         }

@@ -1,4 +1,4 @@
-//! The required functions of Embree 4, looked up in its shared library when the first structure is built.
+//! The functions of Embree 4, loaded from the shared library at run time.
 
 use std::env;
 use std::ffi::{OsStr, c_char, c_int, c_uint, c_void};
@@ -6,23 +6,20 @@ use std::sync::OnceLock;
 
 use libloading::Library;
 
-/// The environment variable with the path of the library.
 pub const VARIABLE: &str = "SAHARA_EMBREE";
 
-/// File names of the library on the system's search path.
 const NAMES: [&str; 4] = ["libembree4.so.4", "libembree4.so", "libembree4.4.dylib", "embree4.dll"];
 
-/// A pointer to an object of Embree.
 pub type Handle = *mut c_void;
 
-/// A callback for errors. It receives the pointer registered with it, an error code and a message.
+/// Receives the pointer passed to `rtcSetDeviceErrorFunction`, an error code and a message.
 pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 
-/// A callback for memory. It receives the pointer registered with it, a change in bytes, and whether the change has
-/// happened. It returns false to refuse the change.
+/// Receives the pointer passed to `rtcSetDeviceMemoryMonitorFunction`, the change of memory in bytes, and whether the
+/// change has happened. Returns false to refuse the change.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
-/// The options of a query: the first fields of `RTCIntersectArguments` and `RTCOccludedArguments`, then zeros.
+/// The options of a query, passed as `RTCIntersectArguments` or `RTCOccludedArguments`. `rest` must be zero.
 #[repr(C)]
 pub struct Arguments {
     pub flags: c_uint,
@@ -30,7 +27,7 @@ pub struct Arguments {
     pub rest: [usize; 5],
 }
 
-/// Types of geometry, buffers and formats, as numbered in Embree's headers.
+// These constants are enumerators in Embree's headers.
 pub const TRIANGLES: c_int = 0;
 pub const INDICES: c_int = 0;
 pub const VERTICES: c_int = 1;
@@ -38,7 +35,7 @@ pub const UINT3: c_int = 0x5003;
 pub const FLOAT3: c_int = 0x9003;
 const VERSION: c_int = 0;
 
-/// The scene flag `RTC_SCENE_FLAG_ROBUST`: Plücker instead of Möller-Trumbore, and widened boxes.
+/// The scene flag `RTC_SCENE_FLAG_ROBUST`.
 pub const ROBUST: c_int = 4;
 
 macro_rules! api {
@@ -50,9 +47,9 @@ macro_rules! api {
 
         impl Api {
             /// # Safety
-            /// If `library` has these symbols, it must be Embree; calls require the types of Embree 4.
+            /// A library with these symbols must be Embree. A caller may call only functions with the declared types.
             unsafe fn find(library: &Library) -> Result<Self, libloading::Error> {
-                // SAFETY: by the contract of this function the symbols are functions of Embree.
+                // SAFETY: by the contract of this function, the symbols are functions of Embree.
                 unsafe { Ok(Self { $($field: *library.get(concat!($symbol, "\0").as_bytes())?,)* }) }
             }
         }
@@ -85,7 +82,7 @@ api! {
     occluded16 = "rtcOccluded16": fn(*const c_int, Handle, *mut c_void, *const Arguments);
 }
 
-/// Loads Embree 4 once, and never unloads it, because its threads outlive its objects. The error contains a remedy.
+/// The library is never unloaded, because the threads of Embree may outlive devices and scenes.
 pub fn api() -> Result<&'static Api, String> {
     static LOADED: OnceLock<Result<(Library, Api), String>> = OnceLock::new();
     LOADED.get_or_init(load).as_ref().map(|(_, api)| api).map_err(String::clone)
@@ -93,8 +90,8 @@ pub fn api() -> Result<&'static Api, String> {
 
 fn load() -> Result<(Library, Api), String> {
     let named = env::var_os(VARIABLE).filter(|path| !path.is_empty());
-    // SAFETY: loading runs the initialisers of the library. The library is either named by the user or the system's
-    // Embree; both are trusted.
+    // SAFETY: `Library::new` runs the initialisers of the library. A library that the user names is trusted. The
+    // Embree library of the system is trusted.
     let open = |name: &OsStr| unsafe { Library::new(name) };
     let library = match &named {
         Some(path) => open(path)
@@ -110,8 +107,8 @@ fn load() -> Result<(Library, Api), String> {
         let place = named.as_ref().map_or(NAMES[0].into(), |path| path.display().to_string());
         format!("{place} is not Embree 4: {what}; set {VARIABLE} to the path of libembree4")
     };
-    // SAFETY: a library with these symbols is Embree. Before the version check, the calls use only functions whose
-    // types have not changed since Embree 3.
+    // SAFETY: a library with these symbols is Embree. The functions called here have the same types in Embree 3 and
+    // Embree 4.
     let (api, version) = unsafe {
         let api = Api::find(&library).map_err(|error| other(&error.to_string()))?;
         let device = (api.new_device)(c"threads=1".as_ptr());
@@ -122,7 +119,7 @@ fn load() -> Result<(Library, Api), String> {
         }
         (api, version)
     };
-    // The version of 4.4.0 is 40400.
+    // Embree 4.4.0 reports the version 40400.
     if version / 10_000 != 4 {
         return Err(other(&format!("its version is {}.{}", version / 10_000, version / 100 % 100)));
     }

@@ -8,23 +8,19 @@ use super::api::{Api, FLOAT3, Handle, INDICES, TRIANGLES, UINT3, VERTICES, api};
 use crate::accel::BuildError;
 use crate::geometry::Mesh;
 
-/// Errors and memory that Embree reports.
 #[derive(Default)]
 struct Monitor {
     /// The first error since the last call of `refusal`.
     error: Mutex<Option<String>>,
-    /// Bytes that Embree has allocated.
     bytes: AtomicIsize,
 }
 
-/// A device of Embree and one finished scene on it.
 pub struct Scene {
     pub(super) api: &'static Api,
     device: Handle,
     /// The scene, committed.
     pub(super) handle: Handle,
-    /// Embree stores a pointer to the monitor. This pointer stays valid when the `Arc` is moved. Moving a `Box` would
-    /// invalidate it.
+    /// Embree stores a pointer to the monitor. Moving an `Arc` keeps this pointer valid; moving a `Box` does not.
     monitor: Arc<Monitor>,
 }
 
@@ -34,7 +30,7 @@ unsafe impl Send for Scene {}
 unsafe impl Sync for Scene {}
 
 /// # Safety
-/// `monitor` is the pointer registered with this function, and outlives the device; `text` is null or a C string.
+/// `monitor` is the pointer registered with this function, and outlives the device. `text` is null or a C string.
 unsafe extern "C" fn on_error(monitor: *mut c_void, _: c_int, text: *const c_char) {
     // SAFETY: by the contract of this function the monitor lives.
     let monitor = unsafe { &*monitor.cast::<Monitor>() };
@@ -58,12 +54,12 @@ unsafe extern "C" fn on_memory(monitor: *mut c_void, bytes: isize, _: bool) -> b
 }
 
 impl Scene {
-    /// Builds a scene of the triangles `ids` of `mesh`; `device` is the configuration for `rtcNewDevice`.
+    /// `device` is the configuration for `rtcNewDevice`.
     pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, device: &str) -> Result<Self, BuildError> {
         let api = api().map_err(BuildError::Unavailable)?;
         let options = CString::new(device).expect("the configuration contains no zero byte");
-        // SAFETY: the calls and their order follow Embree's manual. The monitor registered here is stored in `scene`,
-        // which releases the device before it drops the monitor, even after a failure.
+        // SAFETY: the calls and their order follow Embree's manual. The monitor registered here is stored in `scene`.
+        // Even after a failure, `scene` releases the device before it drops the monitor.
         unsafe {
             let device = (api.new_device)(options.as_ptr());
             if device.is_null() {
@@ -86,7 +82,7 @@ impl Scene {
         }
     }
 
-    /// Copies the triangles to buffers that Embree allocates, pads and aligns.
+    /// Embree allocates, pads and aligns the buffers.
     fn attach(&self, mesh: &Mesh, ids: &[u32], quality: c_int) -> Result<(), BuildError> {
         let (api, positions) = (self.api, mesh.positions());
         // SAFETY: the buffers are checked for null, and have space for the items of 12 bytes that are written. The

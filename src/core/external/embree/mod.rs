@@ -1,11 +1,9 @@
-//! [Embree](https://github.com/RenderKit/embree) 4: a library for renderers, loaded at run time from the path in
-//! `SAHARA_EMBREE` or from the system's search path.
+//! [Embree](https://github.com/RenderKit/embree) 4, a library for renderers, loaded at run time. The library is at the
+//! path in `SAHARA_EMBREE` or on the system's search path.
 //!
-//! Embree's flag ROBUST changes the triangle test and the box test, so there are two structures: `embree` and
-//! `embree-robust`. Its triangle test runs only inside a scene, so [`alone`] builds a scene of one triangle to decide a
-//! disputed hit. Single rays and packets of eight or sixteen rays are converted to Embree's format before the clock
-//! starts: 48, 384 and 768 bytes. Each query copies them to the stack; a closest-hit query adds an empty hit.
-//! Builds use the caller's number of threads. The adapter cannot see the tree and reports one leaf.
+//! Embree's flag `ROBUST` changes the triangle test and the box test, so there are two structures. Embree's triangle
+//! test runs only inside a scene. To decide a disputed hit, [`alone`] builds a scene of one triangle. The adapter
+//! cannot see the tree and reports one leaf.
 //!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
@@ -26,8 +24,8 @@ use api::Arguments;
 use device::Scene;
 use rays::Packet;
 
-/// A scene of Embree. By default, the triangle test is Möller-Trumbore and the box test uses fused multiply-add. With
-/// `ROBUST` (`RTC_SCENE_FLAG_ROBUST`), the triangle test is Plücker and the boxes are widened.
+/// A scene of Embree. By default, the triangle test is Möller-Trumbore. With `ROBUST` (`RTC_SCENE_FLAG_ROBUST`), the
+/// triangle test is Plücker and the boxes are widened.
 pub struct Embree<const ROBUST: bool> {
     scene: Scene,
     /// For each triangle of the scene, its number in the mesh.
@@ -42,7 +40,7 @@ pub struct Embree<const ROBUST: bool> {
 pub struct EmbreeConfig {
     /// Embree's build quality.
     pub quality: Quality,
-    /// Rays per query: 1, 8 or 16. Packets of the register width are the fastest: 8 with AVX2, 16 with AVX-512.
+    /// Rays per query: 1, 8 or 16.
     pub packet: Lanes,
     /// Whether queries declare the rays of a packet as coherent.
     pub rays: Rays,
@@ -92,7 +90,7 @@ pub enum Isa {
     /// All instructions of the processor.
     #[default]
     Native,
-    /// At most AVX2, to compare with a build for processors without AVX-512.
+    /// At most AVX2.
     Avx2,
 }
 
@@ -112,7 +110,6 @@ impl From<Lanes> for u32 {
     }
 }
 
-/// A batch of rays in packets; the last packet has the remaining rays.
 struct Packets<'a, const LANES: usize, const ROBUST: bool> {
     structure: &'a Embree<ROBUST>,
     packets: Vec<Packet<LANES>>,
@@ -204,7 +201,7 @@ impl<const ROBUST: bool> Accel for Embree<ROBUST> {
     }
 }
 
-/// The `t` of Embree's triangle test, from a scene that contains only this triangle. Takes up to a millisecond.
+/// The `t` of Embree's triangle test, from a scene that contains only this triangle.
 pub fn alone<const ROBUST: bool>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);
     let config = EmbreeConfig { quality: Quality::Medium, ..Default::default() };

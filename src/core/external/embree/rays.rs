@@ -1,6 +1,6 @@
 //! Rays in Embree's format: one, eight or sixteen.
 //!
-//! A query overwrites the ends of the intervals (`tfar`) and writes the hits, so each query gets a copy.
+//! A query overwrites the ends of the ray intervals (`tfar`), so each query gets a copy of its rays.
 
 use std::ffi::c_int;
 use std::mem::offset_of;
@@ -76,7 +76,7 @@ impl<const LANES: usize> Packet<LANES> {
         Self { valid, rays: packet }
     }
 
-    /// For each lane, `t` and the number of the triangle that its ray hits first.
+    /// For each lane, the `t` and the triangle number of the closest hit of its ray.
     #[inline]
     pub fn closest(
         &self,
@@ -92,8 +92,8 @@ impl<const LANES: usize> Packet<LANES> {
             instances: [[NONE; LANES]; 2],
         };
         let (api, valid, rays) = (scene.api, self.valid.as_ptr(), (&raw mut query).cast());
-        // SAFETY: `Scene::new` has committed the scene; `valid` and `query` have the alignment that Embree requires,
-        // and are at least as large as the types of Embree 4 (asserted at their types).
+        // SAFETY: `Scene::new` has committed the scene. `valid` and `query` have the alignment that Embree requires.
+        // `valid` and `query` are at least as large as the types of Embree 4 (asserted at `Query`).
         unsafe {
             match LANES {
                 1 if self.valid[0] == 0 => {}
@@ -107,7 +107,6 @@ impl<const LANES: usize> Packet<LANES> {
         (0..LANES).map(move |lane| (geometry[lane] != NONE).then_some((t[lane], primitive[lane])))
     }
 
-    /// For each lane, whether its ray hits anything.
     #[inline]
     pub fn any(&self, scene: &Scene, arguments: &Arguments) -> impl Iterator<Item = bool> + use<LANES> {
         #[repr(align(64))]

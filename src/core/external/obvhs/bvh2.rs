@@ -15,7 +15,7 @@ use crate::accel::{Observer, Part, TreeShape};
 
 const _: () = assert!(size_of::<Bvh2Node>() == 32);
 
-/// The builder is PLOC with reinsertion. A node has 32 bytes (feature `small_bvh2_node`, the faster of two node sizes).
+/// The builder is PLOC with reinsertion. The feature `small_bvh2_node` gives nodes of 32 bytes.
 ///
 /// # References
 /// Meister, Bittner: Parallel locally-ordered clustering for bounding volume hierarchy construction, 2018; Parallel
@@ -38,7 +38,7 @@ impl Tree for Bvh2 {
         })
     }
 
-    /// Takes the steps of obvhs' traversal, without assertions and with an observer. A test compares the hits.
+    /// Takes the steps of obvhs' traversal, without assertions and with an observer.
     ///
     /// # Safety
     /// As for [`Tree::walk`].
@@ -79,7 +79,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
     observer: &mut O,
 ) -> Option<RayHit> {
     let mut hit = RayHit::none();
-    // Searches a leaf. Returns true if the traversal is finished: with `ANY`, at the first hit.
+    // Returns true if the traversal is finished.
     let mut leaf = |node: &Bvh2Node, ray: &mut PreparedRay, hit: &mut RayHit, observer: &mut O| {
         observer.leaf(node.prim_count);
         for index in node.first_index..node.first_index + node.prim_count {
@@ -103,7 +103,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
     observer.inner();
     let mut first = root.first_index;
     loop {
-        // SAFETY: a node links to `first` and the node after it, so both exist by the contract of this function.
+        // SAFETY: a node links to `first` and the next node. Both nodes exist by the contract of this function.
         let [mut near, mut far] =
             unsafe { [nodes.get_unchecked(first as usize), nodes.get_unchecked(first as usize + 1)] };
         let (mut near_t, mut far_t) = (near.aabb().intersect_ray(&ray), far.aabb().intersect_ray(&ray));

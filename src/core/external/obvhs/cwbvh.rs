@@ -28,7 +28,7 @@ impl Tree for CwBvh {
         (&mut self.nodes, &mut self.primitive_indices)
     }
 
-    /// A child encodes a leaf or a node. A leaf is encoded by its first triangle and one bit per triangle.
+    /// A leaf is encoded by the offset of its first triangle and one bit per triangle.
     fn leads_inside(&self, triangles: usize) -> bool {
         self.nodes.iter().all(|node| {
             (0..8).filter(|&child| !node.is_child_empty(child)).all(|child| {
@@ -43,8 +43,8 @@ impl Tree for CwBvh {
         })
     }
 
-    /// Traverses with the macro of obvhs, as its documentation recommends, but without bounds checks of nodes. The
-    /// observer counts inner nodes and triangles but no leaves, because a leaf is stored in its parent.
+    /// Traverses with the macro of obvhs, without bounds checks of nodes. The observer counts inner nodes and triangles
+    /// but no leaves, because a leaf is stored in its parent.
     ///
     /// # Safety
     /// As for [`Tree::walk`].
@@ -83,7 +83,7 @@ impl Tree for CwBvh {
         (hit.t < f32::INFINITY).then_some(hit)
     }
 
-    /// A child with triangles counts as a leaf. Boxes of children are rounded outward to a grid of 256 cells per axis.
+    /// Boxes of children are rounded outward to a grid of 256 cells per axis.
     fn shape(&self) -> TreeShape {
         let root = (!self.nodes.is_empty()).then(|| (NodeOrLeaf::Node(0), aabb(self.total_aabb)));
         TreeShape::of(root, |place, _| match place {
@@ -104,7 +104,6 @@ impl Tree for CwBvh {
     }
 }
 
-/// A node by its index, or a leaf by its number of triangles.
 enum NodeOrLeaf {
     Node(usize),
     Leaf(u32),
@@ -115,7 +114,6 @@ struct UncheckedTree<'a> {
     nodes: UncheckedNodes<'a>,
 }
 
-/// Nodes, accessed without bounds checks.
 struct UncheckedNodes<'a>(&'a [CwBvhNode]);
 
 impl<'a> UncheckedTree<'a> {

@@ -52,19 +52,19 @@ impl<T: TriangleTest> LeafTest for Over<T> {
         (*ray, T::prepare(ray))
     }
 
-    /// The float after the last `t` of the test: an exact test may round a `t` before `t_max` to `t_max`.
+    /// The float after the last `t` of the test. An exact test may round a `t` below `t_max` to `t_max`.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         T::last(t_max).next_up()
     }
 
     #[inline(always)]
-    fn test(triangle: &T::Block<1>, ray: &PreparedRay, (asked, prepared): &Self::Ray) -> f32 {
-        T::hit(prepared, triangle, ray.tmin, ray.tmax).map_or(f32::INFINITY, |depth| depth.t(asked))
+    fn test(triangle: &T::Block<1>, ray: &PreparedRay, (original, prepared): &Self::Ray) -> f32 {
+        T::hit(prepared, triangle, ray.tmin, ray.tmax).map_or(f32::INFINITY, |depth| depth.t(original))
     }
 }
 
-/// obvhs' own test on its precomputed triangle, called as in its documentation. This is the fastest configuration.
+/// obvhs' own test on its precomputed triangle.
 pub struct Native;
 
 impl LeafTest for Native {
@@ -86,11 +86,11 @@ impl LeafTest for Native {
     }
 }
 
-/// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal, 64 bytes per triangle.
+/// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal.
 ///
-/// The wrapper makes brute force over this test a reference for the BVHs that use it. The test reads signs from the
-/// sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a barycentric coordinate is -0.0. This
-/// happens on every edge seen from the back, and on the third edge also from the front.
+/// The test reads signs from the sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a
+/// barycentric coordinate is -0.0. This happens on every edge seen from the back, and on the third edge also from the
+/// front.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RtTest;
 

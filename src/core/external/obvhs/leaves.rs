@@ -28,7 +28,6 @@ pub(super) fn input(mesh: &Mesh) -> (Vec<Triangle>, Vec<u32>) {
 }
 
 impl<T: LeafTest> Leaves<T> {
-    /// Uses huge pages and all threads, like the structures of this crate.
     pub fn new(mesh: &Arc<Mesh>, solid: &[u32], order: &[u32]) -> Self {
         let mut ids = pages::with_capacity(order.len());
         ids.par_extend(order.par_iter().map(|&i| solid[i as usize]));
@@ -41,7 +40,7 @@ impl<T: LeafTest> Leaves<T> {
         self.triangles.len()
     }
 
-    /// The ray in the formats of obvhs and of the test; `None` if the ray can hit nothing.
+    /// `None` if the ray can hit nothing.
     #[inline(always)]
     pub fn start(&self, ray: &Ray) -> Option<(PreparedRay, T::Ray)> {
         let (t_min, t_max) = ray.interval();

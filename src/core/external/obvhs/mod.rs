@@ -1,17 +1,12 @@
-//! The baseline: the BVHs of the crate `obvhs`. The adapter does not handicap them.
+//! The baseline: the BVHs of the crate `obvhs`.
 //!
-//! Each BVH is offered with the triangle tests of this crate and with obvhs' own [`RtTest`], the fastest of these
-//! configurations. Triangles are stored in the order of the leaves, so a traversal needs no lookup in an index array;
-//! only the final hit is mapped to its triangle in the mesh. Each ray is prepared once, inside the timed region, like
-//! the rays of the structures of this crate; obvhs computes the inverse direction.
+//! The adapter gives these trees the advantages of the trees of this crate. Arrays are on large pages, triangles are
+//! stored in leaf order, and traversals check no bounds. The links are checked once, when the tree is built.
 //!
-//! The adapter gives these trees the same advantages as the trees of this crate: arrays on large pages, triangles
-//! converted on all threads, no bounds checks. The traversals are obvhs' own without its checks: the links are checked
-//! once, when the tree is built.
-//!
-//! Known defects of obvhs 0.4.0, which `sahara validate` shows: `CwBvh` misses every ray with a direction component of
-//! -0.0 and loses hits with t < 1e-4; both BVHs lose axis-parallel rays close to a box face, and rays with short
-//! directions; the build takes quadratic time on coincident triangles.
+//! Known defects of obvhs 0.4.0:
+//! - `CwBvh` misses every ray with a direction component of -0.0, and loses hits with t < 1e-4.
+//! - Both BVHs lose axis-parallel rays close to a box face, and rays with short directions.
+//! - The build takes quadratic time on coincident triangles.
 
 mod bvh2;
 mod cwbvh;
@@ -58,8 +53,7 @@ pub struct ObvhsConfig {
     pub preset: Preset,
 }
 
-/// The presets of obvhs, from the fastest build to the best tree. Only `slow` and `very-slow` split large triangles, so
-/// only these two compare fairly with a KD-tree.
+/// The presets of obvhs, from the fastest build to the best tree. Only `slow` and `very-slow` split large triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs)]
@@ -101,14 +95,14 @@ pub trait Tree: Send + Sync + Sized + 'static {
     /// The nodes, and the index of the triangle at each position.
     fn arrays(&mut self) -> (&mut Vec<Self::Node>, &mut Vec<u32>);
 
-    /// Whether all links lead to nodes, and all leaves contain positions below `triangles`. Traversals require this.
+    /// Whether all links lead to nodes, and all leaves contain positions below `triangles`.
     fn leads_inside(&self, triangles: usize) -> bool;
 
     /// The nearest hit; with `ANY`, the first hit found. `test` returns the `t` at a position, infinity for a miss.
     ///
     /// # Safety
-    /// [`Tree::leads_inside`] must return true for the number of triangles that `test` accepts: the traversal follows
-    /// links, and passes positions in leaves to `test`, without checking them.
+    /// [`Tree::leads_inside`] must return true for the number of triangles that `test` accepts. The traversal checks
+    /// neither links nor positions.
     unsafe fn walk<const ANY: bool>(
         &self,
         ray: PreparedRay,

@@ -10,7 +10,6 @@ fn soup(triangles: usize) -> Arc<Mesh> {
     Arc::new(straddling_soup(triangles, 3))
 }
 
-/// Rays in all directions, along the axes (zeros of both signs), and with intervals that begin or end in the scene.
 fn rays(count: usize) -> Vec<Ray> {
     let mut random = Pcg32::seed_from_u64(4);
     let mut ray = |i: usize| {
@@ -25,7 +24,7 @@ fn rays(count: usize) -> Vec<Ray> {
     (0..count).map(&mut ray).collect()
 }
 
-/// Compares the adapter's traversals with obvhs' own: `own` returns the closest hit and the any-hit result of obvhs.
+/// `own` returns the closest hit and the any-hit result of obvhs' own traversals.
 fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, bool)) {
     for triangles in [1, 2, 3, 3000] {
         let mesh = soup(triangles);
@@ -42,7 +41,7 @@ fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, 
     }
 }
 
-/// The results of obvhs' own traversals; a macro, because the traversals have no common trait.
+/// This is a macro, because obvhs' own traversals have no common trait.
 macro_rules! own_walk {
     () => {
         |built, ray| {

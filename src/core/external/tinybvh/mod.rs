@@ -1,10 +1,7 @@
-//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 from the crate `tinybvh-rs` 0.1: `BVH8_CPU`, its fastest layout,
-//! built by its best builder, with spatial splits (SBVH).
+//! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 from the crate `tinybvh-rs` 0.1: the layout `BVH8_CPU`, built
+//! with spatial splits (SBVH).
 //!
-//! A C++ compiler compiles tinybvh for the instructions of this machine. Only the builders are called through the
-//! crate; both queries call the linked C++ library ([`query`]). The ray (unit direction and its inverse) is prepared
-//! before the clock starts; each query copies it to the stack, into the larger ray type of C++. tinybvh takes triangles
-//! as corners of 16 bytes, and builds large scenes on its own threads.
+//! Only the builders are called through the crate. The queries call the linked C++ library (see `query.rs`).
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
@@ -23,7 +20,6 @@ use query::{RayHead, Tree};
 
 /// The 8-wide BVH of tinybvh.
 pub struct TinyBvh {
-    /// `None` if there are no triangles.
     tree: Option<Tree>,
     /// For each triangle of the tree, its number in the mesh.
     ids: Vec<u32>,
@@ -46,10 +42,8 @@ fn inverse(x: f32) -> f32 {
     if x.abs() > 1e-12 { 1.0 / x } else { FAR.copysign(if x >= 0.0 { 1.0 } else { -1.0 }) }
 }
 
-/// A ray in tinybvh's format, and the data for converting `t` back.
 pub(crate) struct Ready {
     ray: RayHead,
-    /// Length of the direction.
     length: f32,
     t_min: f32,
 }
@@ -70,7 +64,7 @@ impl Prepare for TinyBvh {
         let inverse = Vec3::from_array(unit.to_array().map(inverse));
         let end = ((t_max - t_min) * length).min(FAR);
         // tinybvh ends the process if `checked`, summed in this order, is NaN. If `unit` or `origin * inverse`
-        // overflows, rays no longer miss the empty children of a node, and tinybvh reads outside its arrays.
+        // overflows, a ray may meet empty children, and tinybvh reads outside its arrays.
         let checked = unit.x + unit.y + unit.z + end + origin.x + origin.y + origin.z;
         if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
             return None;
@@ -105,9 +99,10 @@ impl Prepare for TinyBvh {
 /// The size of the stacks of tinybvh's traversal and conversion, which do not check for overflow.
 const STACK: usize = 256;
 
-/// The shape of the tree, and an upper bound on the entries of tinybvh's stacks. Below a node with n children, m of
-/// them inner, the traversal keeps n - 1 entries, and the conversion fewer than 2 m. The traversal writes eight at
-/// once.
+/// The shape of the tree, and an upper bound on the entries of tinybvh's stacks.
+///
+/// Let a node have n children, m of them inner. Below this node, the traversal keeps n - 1 entries, and the conversion
+/// keeps fewer than 2 m entries. The traversal writes eight entries at once.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
     let (mut shape, mut most) = (TreeShape::default(), 0);
     let mut stack = vec![(0, 0, 0)];
@@ -155,7 +150,6 @@ impl Accel for TinyBvh {
         }
         let corners: Vec<[f32; 4]> =
             ids.iter().flat_map(|&id| mesh.corners(id)).map(|v| v.extend(0.0).to_array()).collect();
-        // tinybvh converts a binary tree to a wide tree, and the wide tree to the layout `BVH8_CPU`.
         let refusal = |error: tinybvh_rs::Error| BuildError::Mesh(format!("tinybvh reports an error: {error}"));
         let corners: Positions = corners.as_slice().into();
         let mut binary = bvh::BVH::new_hq(corners).map_err(refusal)?;

@@ -1,8 +1,8 @@
-//! The two queries of `BVH8_CPU`, called in the C++ library that `tinybvh-rs` compiles and links.
+//! The two queries of `BVH8_CPU`, called in the linked C++ library.
 //!
-//! The crate passes a ray of 64 bytes to functions whose ray type has 128, and does not expose `IsOccluded`. Therefore
-//! this module calls both functions by their mangled C++ names (Itanium ABI). It relies on the layout of the ray and of
-//! the crate's tree in the version that `Cargo.toml` pins.
+//! The crate `tinybvh-rs` passes a ray of 64 bytes to functions whose ray type has 128 bytes. It does not expose
+//! `IsOccluded`. Therefore this module calls both functions by their mangled C++ names (Itanium ABI). The module relies
+//! on the layouts of the ray and of the crate's tree in the version that `Cargo.toml` pins.
 
 use std::ffi::c_void;
 use std::mem;
@@ -26,7 +26,6 @@ pub struct RayHead {
     pub primitive: u32,
 }
 
-/// `tinybvh::Ray` in its full size in C++.
 #[repr(C, align(64))]
 struct FullRay {
     head: RayHead,
@@ -35,14 +34,13 @@ struct FullRay {
 
 const _: () = assert!(size_of::<RayHead>() == 64 && size_of::<FullRay>() == 128);
 
-/// A finished tree and the C++ object in it.
 pub struct Tree {
     /// Frees `object` on drop; not used otherwise.
     _owner: bvh8_cpu::BVH,
     object: *const c_void,
 }
 
-// SAFETY: the tree owns its data; both queries are `const` in C++, and write only to the ray of the caller.
+// SAFETY: the tree owns its data. Both queries are `const` in C++ and write only to the ray of the caller.
 unsafe impl Send for Tree {}
 // SAFETY: as for `Send`.
 unsafe impl Sync for Tree {}
@@ -72,16 +70,15 @@ impl Tree {
     pub fn closest(&self, ray: &RayHead) -> Option<(f32, u32)> {
         let mut whole = FullRay { head: *ray, custom: [0; 8] };
         // SAFETY: the object is on the C++ heap and lives as long as `self`, even if `self` is moved. The ray has the
-        // size and alignment of its C++ type (asserted at `FullRay`), and no other reference to it exists.
+        // size and alignment of its C++ type (see `FullRay`). No other reference to the ray exists.
         unsafe { intersect(self.object, &raw mut whole) };
         (whole.head.t < ray.t).then_some((whole.head.t, whole.head.primitive))
     }
 
-    /// Whether the ray hits anything in (0, `ray.t`). Stops at the first hit.
     #[inline]
     pub fn any(&self, ray: &RayHead) -> bool {
         let whole = FullRay { head: *ray, custom: [0; 8] };
-        // SAFETY: the object lives as long as `self`; the ray has the layout of its C++ type, and is only read.
+        // SAFETY: the object lives as long as `self`. The ray has the layout of its C++ type, and is only read.
         unsafe { is_occluded(self.object, &raw const whole) }
     }
 }

@@ -1,4 +1,4 @@
-//! Intersects one triangle in `f64`, with bounds on the rounding errors.
+//! Intersects a line and a triangle in `f64`, with bounds on the rounding errors.
 
 use glam::Vec3;
 
@@ -6,30 +6,36 @@ use crate::exact;
 use crate::geometry::Ray;
 use crate::simd::{Arithmetic, LaneVec3, Lanes, Portable, each};
 
-/// The result of `f64` arithmetic for a line and a triangle.
 pub(super) enum Bounds {
-    /// The line misses the triangle.
     Miss,
     /// The line meets the closed triangle at an exact `t` in [`low`, `high`].
-    Hit { low: f64, high: f64 },
-    /// Undecided, because of rounding.
+    Hit {
+        low: f64,
+        high: f64,
+    },
     Unclear,
 }
 
-/// 2^-53, the relative error of a difference, a product and a sum.
+/// The unit roundoff of `f64`.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// Bounds the intersection of the line of `ray` and a triangle, by Möller-Trumbore.
 ///
-/// **Bounds.** Let o and d be origin and direction, a the first corner, s = o - a, e and f the edges from a, u = s . (d
-/// x f), v = d . (s x e), det = e . (d x f), h = f . (s x e). The line meets the closed triangle, at t = h / det, if
-/// det is not zero and no two of u, v and w = det - u - v have opposite signs. Let n = 2^-53, let E bound the
-/// components of e and f, D the components of d, and |s| be the sum of the magnitudes of the components of s.
-/// Differences of inputs, products and sums have a relative error of n. The errors are 3.1 n 2 D E for the components
-/// of d x f, 4.1 n 2 E |s| for the sum of the components of s x e, 7.1 n 2 D E |s| for u and v, 7.1 n 6 D E E for det,
-/// 9.2 n (4 D E |s| + 6 D E E) for w, and 8.1 n 2 E E |s| for h. The code uses larger constants, to cover the rounding
-/// of the bounds as well. `f32` inputs cause no overflow or underflow: products of three differences and a direction
-/// are below 2^520 and, if not zero, at least 2^-596.
+/// **Notation.** Let o and d be the origin and the direction, a the first corner, and s = o - a. Let e and f be the
+/// edges from a. Let u = s . (d x f), v = d . (s x e), det = e . (d x f), w = det - u - v and h = f . (s x e). Let E
+/// bound the components of e and f, and D the components of d. Let |s| be the sum of the magnitudes of the components
+/// of s.
+///
+/// If det is not zero and no two of u, v and w have opposite signs, the line meets the closed triangle at t = h / det.
+///
+/// **Bounds.** Let n = 2^-53. The errors are at most:
+///
+/// - 7.1 n 2 D E |s| for u and v,
+/// - 7.1 n 6 D E E for det,
+/// - 9.2 n (4 D E |s| + 6 D E E) for w,
+/// - 8.1 n 2 E E |s| for h.
+///
+/// The code uses larger constants to cover the rounding of the bounds. `f32` inputs cause no overflow or underflow.
 #[inline(always)]
 pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
@@ -39,7 +45,6 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (det, u, v) = (edge1.dot(p), to_origin.dot(p), direction.dot(q));
     let w = det - u - v;
 
-    // If two signs are certainly opposite, the line misses.
     let extent = edge1.abs().max(edge2.abs()).max_element();
     let distance = to_origin.abs().element_sum();
     let unit = UNIT * extent * direction.abs().max_element();
@@ -64,7 +69,7 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// Like [`look`] if the line passes exactly through a corner and is certainly not parallel to the plane, else `None`.
+/// Returns `None` if the line passes exactly through no corner, or may be parallel to the plane.
 #[inline(always)]
 pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
     let corner = corners.into_iter().find(|&corner| exact::passes_through(ray, corner))?;
@@ -72,7 +77,7 @@ pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
     (det.abs() > error).then(|| at_height(corner, ray, ray.direction.abs().max_position()))
 }
 
-/// The determinant d . (e x f), in the notation of [`look`], and a bound of its error.
+/// Returns det in the notation of [`look`], and a bound of the error of det.
 #[inline(always)]
 fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
     let direction = ray.direction.as_dvec3();
@@ -82,9 +87,9 @@ fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
     (direction.dot(edge1.cross(edge2)), 48.0 * UNIT * extent * extent * direction.abs().max_element())
 }
 
-/// Bounds of the `t` at which the line crosses the plane through `point` perpendicular to `axis`. The line must not be
-/// parallel to this plane. The difference of two floats has the right sign, and is zero if and only if they are equal.
-/// The difference and the division each have a relative error of at most 2^-53.
+/// Bounds the `t` at which the line crosses the plane through `point` perpendicular to `axis`.
+///
+/// The line must not be parallel to the plane. If the origin lies in the plane, both bounds are zero.
 #[inline(always)]
 fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     let t = (f64::from(point[axis]) - f64::from(ray.origin[axis])) / f64::from(ray.direction[axis]);
@@ -92,8 +97,7 @@ fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     Bounds::Hit { low: t - error, high: t + error }
 }
 
-/// Whether the line misses the triangle: whether u, v or w of [`look`] has the opposite sign of det, their sum. Each of
-/// u, v and w comes with its error bound. The sign of det must be certain.
+/// Whether u, v or w of [`look`] has the opposite sign of det. The sign of det must be certain.
 #[inline(always)]
 fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 3]) -> bool {
     let sign = det.total_cmp(&0.0);
@@ -104,11 +108,11 @@ fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 
     is_opposite(u, a, c) || is_opposite(v, b, a) || is_opposite(w, c, b)
 }
 
-/// Like [`look`], for one line and one triangle per lane, which are known to meet. Returns the lanes with valid bounds
-/// of the exact `t`, as bits, and the bounds.
+/// Returns the lanes with valid bounds, as bits, and bounds of the exact `t`. Each line must meet the triangle in the
+/// same lane.
 ///
-/// **Bounds.** In the notation of [`look`], the components of the normal e x f have an error of 4.1 n 2 E E. So the
-/// error of h = s . (e x f) is 8.1 n 2 E E |s|, and the error of det = -d . (e x f) is 7.1 n 6 D E E.
+/// **Bounds.** In the notation of [`look`], the error of h = s . (e x f) is 8.1 n 2 E E |s|. The error of det = -d . (e
+/// x f) is 7.1 n 6 D E E.
 #[inline(always)]
 pub(super) fn place<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -129,7 +133,7 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
     (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
 }
 
-/// Like [`place`], for a triangle in an axis-aligned plane. `None` for other triangles and for parallel lines.
+/// Like [`place`], for a triangle in an axis-aligned plane. Returns `None` for other triangles and for parallel lines.
 #[inline(always)]
 pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bounds> {
     let across = a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpne(Vec3::ZERO);
@@ -137,12 +141,14 @@ pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bo
     Some(at_height(*a, ray, axis))
 }
 
-/// Bounds of the exact `t` of lines that are known to meet their triangles, from the `width` of filter bounds.
+/// Bounds the exact `t`. Each line must meet the triangle in the same lane.
 ///
-/// **Bounds.** In the notation of `filter_block`, but with units of 2^-53 instead of 2^-24, the error of the height is
-/// less than 8.1 units of N |s|, and the error of the determinant is less than 7.1 units of 3 D N. The first stage
-/// allows 10 units of N |s| and, for its scaled direction, 10 units of 6 N. So 2^-29 of half of `width` covers both
-/// errors. The other half covers the rounding of the first stage. 2^-50 of `t` covers the later operations.
+/// `width` is the distance between the bounds of the first stage, or infinity.
+///
+/// **Bounds.** In the notation of `filter_block`, with n = 2^-53, the error of h is less than 8.1 n N |s|. The error of
+/// det is less than 7.1 n 3 D N. The first stage allows errors of 10 w N |s| and 10 w 3 D N, with w = 2^-24. Hence
+/// 2^-29 of half of `width` covers the errors of h and det. The other half of `width` covers the rounding of the first
+/// stage. 2^-50 of `t` covers the later operations.
 #[inline(always)]
 pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -159,8 +165,9 @@ pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     (t.sub(error), t.add(error))
 }
 
-/// Like [`place`], for one line and one triangle, with the height of [`exact::height`]: its relative error is below
-/// 2^-49, so the determinant dominates the width of the bounds. If the origin lies in the plane, both bounds are zero.
+/// Like [`place`] for one lane, with the more accurate height of [`exact::height`].
+///
+/// The relative error of the height is below 2^-49. If the origin lies in the plane, both bounds are zero.
 pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (det, det_error) = determinant(ray, corners);
     if det.abs() < 1024.0 * det_error || det == 0.0 {
@@ -172,7 +179,11 @@ pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// Bounds h/d: |h/d - h'/d'| <= (dh + |h'/d'| dd) / (|d'| - dd). Requires dd <= 2^-10 |d'|. Rounding adds 2^-50 |t|.
+/// Bounds h/d for computed values h' and d' with errors dh and dd.
+///
+/// The error of h'/d' is at most (dh + |h'/d'| dd) / (|d'| - dd).
+///
+/// `det_error` must be at most 2^-10 of |`det`|. The rounding adds at most 2^-50 |t|.
 #[inline(always)]
 fn divide<const N: usize, D: Arithmetic<N, Scalar = f64>>(height: D, height_error: D, det: D, det_error: D) -> (D, D) {
     let abs = |x: D| x.flip_sign(x);

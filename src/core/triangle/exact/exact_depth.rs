@@ -10,36 +10,34 @@ use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::LaneCorners;
 use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
-/// The exact position of a hit along its ray: bounds of `t` in `f32`, and the triangle, for finer decisions.
+/// Bounds of the exact `t` of a hit. The triangle allows finer bounds.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth<'a> {
     low: f32,
     high: f32,
-    /// The distance between the bounds if they come from the first stage, otherwise infinity.
+    /// The distance between the bounds. Infinite if the bounds do not come from the first stage.
     width: f32,
     triangle: LaneCorners<'a>,
 }
 
 impl<'a> ExactDepth<'a> {
-    /// A hit at an exact `t` in [`low`, `high`], bounds of the first stage.
+    /// Bounds from a later stage also need a call of `without_filter_bounds`.
     #[inline(always)]
     pub(super) fn new(triangle: LaneCorners<'a>, low: f32, high: f32) -> Self {
         Self { low, high, width: high - low, triangle }
     }
 
-    /// Marks bounds that are not from the first stage: [`pass_plane`] cannot bound its error by their width.
+    /// [`pass_plane`] is valid only for the width of first-stage bounds, or for an infinite width.
     #[inline(always)]
     pub(super) fn without_filter_bounds(self) -> Self {
         Self { width: f32::INFINITY, ..self }
     }
 
-    /// The lanes whose bounds overlap with the bounds of this hit, as bits.
     #[inline(always)]
     pub(super) fn overlaps<L: EightLanes>(&self, low: L, high: L) -> u32 {
         low.le(L::splat(self.high)) & L::splat(self.low).le(high)
     }
 
-    /// An upper bound of the exact `t`, in `f64`.
     pub(super) fn latest(&self, ray: &Ray) -> f64 {
         match bounds_of_hit(ray, self.triangle.corners()) {
             Bounds::Hit { high, .. } => high,
@@ -52,7 +50,6 @@ impl<'a> ExactDepth<'a> {
         exact::hit(ray, self.triangle.corners()).expect("a depth exists only for a hit")
     }
 
-    /// The order of two hits of `ray` whose bounds overlap.
     #[inline(never)]
     pub(super) fn order_closely(&self, other: &ExactDepth, ray: &Ray) -> Ordering {
         let (own, others) = (self.triangle.corners(), other.triangle.corners());
@@ -75,8 +72,7 @@ impl<'a> ExactDepth<'a> {
     }
 }
 
-/// Whether two triangles have the same corners or lie in one axis-aligned plane. A line meets both at the same `t`.
-/// Equal corners occur if several leaves contain a triangle, and in sheets with two sides.
+/// Whether two triangles have equal corners or lie in one axis-aligned plane. Hits of these triangles have equal `t`.
 #[inline(always)]
 fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let first = a[0];
@@ -84,13 +80,13 @@ fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     a.iter().all(|p| b.contains(p)) && b.iter().all(|p| a.contains(p)) || (0..3).any(level)
 }
 
-/// Whether a line that is known to meet two triangles meets both in a shared corner, at the same `t`.
+/// The line of `ray` must meet both triangles.
 #[inline(always)]
 fn meet_at_a_corner(ray: &Ray, a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     a.iter().any(|corner| b.contains(corner) && exact::passes_through(ray, *corner))
 }
 
-/// Whether a line that is known to meet two triangles meets both in a shared edge.
+/// The line of `ray` must meet both triangles.
 fn meet_at_an_edge(ray: &Ray, a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let shared = |edge: &[Vec3; 2]| b.contains(&edge[0]) && b.contains(&edge[1]);
     [[a[0], a[1]], [a[1], a[2]], [a[2], a[0]]]
@@ -160,17 +156,16 @@ impl Depth for ExactDepth<'_> {
     }
 }
 
-/// The float to which all numbers between these bounds round, if there is a single one.
 #[inline(always)]
 fn rounded(bounds: Bounds) -> Option<f32> {
     match bounds {
-        // Return the upper bound: if the bounds are zeros of different sign, it is the positive zero.
+        // If the bounds are zeros of different signs, `high` is the positive zero.
         Bounds::Hit { low, high } if low as f32 == high as f32 => Some(high as f32),
         _ => None,
     }
 }
 
-/// The correctly rounded `t` of a line at a triangle that it is known to meet, by exact arithmetic if necessary.
+/// The line of `ray` must meet the triangle.
 #[cold]
 fn exact_t(ray: &Ray, corners: [Vec3; 3]) -> f32 {
     let exact = || exact::hit(ray, corners).expect("a depth exists only for a hit").round();

@@ -1,4 +1,4 @@
-//! The exact test.
+//! The exact triangle test.
 
 mod enclosure;
 mod exact_depth;
@@ -17,16 +17,18 @@ use crate::geometry::{Ray, round_down, round_up};
 use crate::simd::{Arithmetic, EightLanes, Kernel, LaneVec3, Lanes, Level, Portable, dispatch, each};
 use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_axis_plane};
 
-/// Exact results at the cost of a filter: an `f32` stage, then `f64` with an error bound for undecided cases, then
-/// integers or exact sums of floats for the remaining cases. Each decision is made only when needed: bounds of `t`
-/// order the hits, overlapping bounds are narrowed, and only one `t` per ray is computed to the last bit.
+/// The exact triangle test, with floating-point filters.
 ///
-/// Guarantees: a ray hits a triangle if and only if it exactly meets the closed triangle. Hits are ordered by their
-/// exact `t`, and by number if their `t` is equal. The returned `t` is the exact `t`, correctly rounded, so a `t` just
-/// before `t_max` may be returned as `t_max`. In a structure that loses no hit, every result is mathematically correct.
-/// Not guaranteed: speed, if many rays pass exactly through edges or start in planes of triangles. Each such triangle
-/// costs 50 nanoseconds, or a microsecond if the significant bits of the coordinates span more than forty binary
-/// places. Results may be wrong if the processor is set to treat denormal numbers as zero.
+/// An `f32` stage with error bounds decides most triangles. An `f64` stage with error bounds decides most of the
+/// remaining triangles. Integers or exact sums of floats decide the last triangles.
+///
+/// A ray in the plane of a triangle misses the triangle. Any other ray hits a triangle if and only if the ray exactly
+/// meets the closed triangle. Hits are ordered by exact `t`, and by triangle number if `t` is equal.
+///
+/// The returned `t` is the exact `t`, correctly rounded. Hence the returned `t` of a hit just before `t_max` may be
+/// `t_max`.
+///
+/// Results may be wrong if the processor treats denormal numbers as zero.
 ///
 /// # References
 /// Filters before exact arithmetic: Fortune, Van Wyk: Efficient exact arithmetic for computational geometry. SoCG 1993.
@@ -35,7 +37,6 @@ use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_ax
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
 
-/// A ray, prepared for both stages.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactRay {
     filter: FilterRay,
@@ -91,7 +92,7 @@ impl TriangleTest for Exact {
         bounds: &CandidateBounds<N>,
     ) -> Option<ExactDepth<'a>> {
         if let Some(decided) = Self::decide_at_once(ray, block, lane, bounds) {
-            // The bounds may come from `look_closer` instead of the filter: mark them with `without_filter_bounds`.
+            // The bounds may come from `look_closer` instead of the filter.
             return decided.map(ExactDepth::without_filter_bounds);
         }
         let (low, high) = in_f64(&ray.ray, block.corners.place(lane), bounds.sure >> lane & 1 == 1)?;
@@ -115,7 +116,6 @@ impl TriangleTest for Exact {
         if high < start || end <= low {
             return Some(None);
         }
-        // This is a frequent case for rays that start in an axis-aligned floor or wall.
         let bounds = place_in_axis_plane(&ray.ray, &block.corners.place(lane).corners())?;
         let inside = within(&ray.ray, bounds)?;
         Some(inside.map(|(low, high)| ExactDepth::new(block.corners.place(lane), low, high).without_filter_bounds()))
@@ -141,7 +141,6 @@ impl TriangleTest for Exact {
         active: L::Mask,
     ) -> Option<EightHits<L>> {
         let (rejected, candidates) = filter_eight(rays, block, lane, to);
-        // Return early: often all rays miss a triangle of a leaf. Then the bounds need not be computed.
         if L::bits(active) & !L::bits(rejected) == 0 {
             return None;
         }
@@ -160,14 +159,13 @@ impl TriangleTest for Exact {
 
     #[inline(always)]
     fn order_closely(ray: &ExactRay, one: &ExactDepth, other: &ExactDepth) -> Ordering {
-        // Copy the depths. Otherwise they would be in memory even if the caller orders them without this function.
+        // These copies allow the caller to keep the depths in registers.
         let (one, other) = (*one, *other);
         one.order_closely(&other, &ray.ray)
     }
 }
 
-/// Decides a triangle that `f32` leaves undecided, in `f64` or exactly. Returns bounds of the exact `t`, or `None` for
-/// a miss. `met`: whether the line is known to meet the triangle. Not inlined, because it is rarely called.
+/// Returns bounds of the exact `t`, or `None` for a miss. If `met` is true, the line must meet the triangle.
 #[inline(never)]
 fn in_f64(ray: &Ray, triangle: LaneCorners, met: bool) -> Option<(f32, f32)> {
     let corners = triangle.corners();
@@ -184,7 +182,7 @@ fn in_f64(ray: &Ray, triangle: LaneCorners, met: bool) -> Option<(f32, f32)> {
         .unwrap_or_else(|| exactly(ray, corners))
 }
 
-/// The `f32` bounds of a hit in the interval of `ray`. `Some(None)` if there is no such hit, `None` if undecided.
+/// Returns `Some(None)` if the ray has no hit in its interval, and `None` if `bounds` do not decide.
 #[inline(always)]
 fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     let (start, end) = (f64::from(ray.interval().0), ray.end());
@@ -196,7 +194,6 @@ fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     }
 }
 
-/// Refines candidates in `f64`: returns the remaining ones and their bounds, or `None` if at most two are undecided.
 struct Crowd<'a> {
     ray: &'a Ray,
     block: &'a FilterBlock<8>,
@@ -234,13 +231,13 @@ impl Kernel for Crowd<'_> {
     }
 }
 
-/// Whether the triangle lies in an axis-aligned plane, such as a floor or a wall, and the ray is parallel to it.
+/// Whether the triangle lies in an axis-aligned plane and the ray is parallel to this plane.
 #[inline(always)]
 fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
     (a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpeq(Vec3::ZERO)).any()
 }
 
-/// Like [`look`], for a line that is known to meet the triangle.
+/// Like [`look`], for a line that meets the triangle.
 #[inline(always)]
 fn bounds_of_hit(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     if let Some(bounds) = place_in_axis_plane(ray, &corners) {
@@ -253,7 +250,6 @@ fn bounds_of_hit(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     }
 }
 
-/// Like [`in_f64`], in exact arithmetic.
 #[cold]
 fn exactly(ray: &Ray, corners: [Vec3; 3]) -> Option<(f32, f32)> {
     let t = exact::hit(ray, corners).filter(|t| t.is_within(ray))?.round();

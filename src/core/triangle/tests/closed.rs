@@ -1,9 +1,8 @@
-//! Checks that some triangle tests let no ray pass between the triangles of a closed mesh.
+//! Checks that no ray passes between the triangles of a closed mesh.
 
 use super::*;
 
-/// A ray through an edge of two triangles, or through a vertex of six, hits one of them. Some rays run along an axis.
-/// `scale` multiplies everything except the direction.
+/// A ray through an edge or a vertex must hit a triangle. `scale` multiplies everything except the direction.
 fn closed_at<T: TriangleTest>(scale: f32, rounds: usize, vertices: bool) {
     let mut rng = Pcg32::seed_from_u64(8);
     for round in 0..rounds {
@@ -35,7 +34,7 @@ fn edge_tests_watertight_and_exact_are_closed_at_edges_and_all_but_plucker_at_ve
         closed_at::<EdgeF64>(1.0, 20_000, vertices);
         closed_at::<Exact>(1.0, 20_000, vertices);
         closed_at::<Watertight>(1.0, 20_000, vertices);
-        // At some of these scales, products of two coordinates leave the range of `f32`, but differences do not.
+        // At some of these scales, products of two coordinates leave the range of `f32`.
         for exponent in [-140, -120, -90, -76, -60, -45, 30, 45, 63, 64, 90, 120] {
             closed_at::<Watertight>(libm::exp2(f64::from(exponent)) as f32, 2_000, vertices);
         }

@@ -1,11 +1,11 @@
-//! Checks that eight rays tested together hit the same triangles as eight rays tested separately.
+//! Compares tests of eight rays at once with tests of single rays.
 
 use std::marker::PhantomData;
 
 use super::*;
 use crate::simd::{EightLanes, Kernel, LaneVec3, Level, dispatch, each};
 
-/// Eight rays, triangles, and the end of the search. `run` counts all hits, and those `meet_eight` decides.
+/// The first output counts all hits. The second output counts the hits that `meet_eight` decides.
 struct Eight<'a, T>(&'a [Ray; 8], &'a [[Vec3; 3]], f32, PhantomData<T>);
 
 impl<T: TriangleTest> Kernel for Eight<'_, T> {
@@ -62,7 +62,6 @@ fn eight<L: EightLanes>(rays: &[Ray; 8]) -> EightRays<L> {
     }
 }
 
-/// The sums of the counts of [`Eight`], for random rays and rays at or near a triangle, some with short intervals.
 fn count_hits<T: TriangleTest>() -> [usize; 2] {
     let mut rng = Pcg32::seed_from_u64(12);
     let mut sums = [0; 2];
@@ -94,7 +93,7 @@ fn count_hits<T: TriangleTest>() -> [usize; 2] {
 }
 
 #[test]
-fn eight_rays_are_told_the_truth_and_without_a_second_stage_all_of_it() {
+fn eight_rays_agree_with_single_rays() {
     let [hits, decided] = count_hits::<MollerTrumbore>();
     assert!(hits > 5_000 && hits == decided, "{decided} of {hits} hits");
     let [hits, decided] = count_hits::<Exact>();

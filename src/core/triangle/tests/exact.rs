@@ -3,7 +3,7 @@
 use super::*;
 use crate::simd::{Level, Portable};
 
-/// In a scene of size 1e-15, products of three lengths underflow, but products of two lengths do not.
+/// At this size, products of three lengths underflow, but products of two lengths do not.
 #[test]
 fn hits_where_only_the_height_underflows_are_found() {
     let unit = libm::exp2f(-51.0);
@@ -12,7 +12,6 @@ fn hits_where_only_the_height_underflows_are_found() {
     assert_eq!(scalar_hit::<Exact>(&ray, corners), Some(0.0));
 }
 
-/// The ray, often with an interval that begins or ends near the hit.
 pub(super) fn windowed(rng: &mut Pcg32, ray: Ray, corners: [Vec3; 3]) -> Ray {
     let t = judge::hit(&ray, corners).map_or(1.0, |t| t.round());
     let end = |rng: &mut Pcg32| match rng.next_u32() % 4 {
@@ -36,7 +35,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
         let ray = windowed(&mut rng, ray, corners);
         let found = scalar_hit::<Exact>(&ray, corners);
         assert_eq!(found.map(f32::to_bits), true_t(&ray, corners).map(f32::to_bits), "{ray:?} {corners:?}");
-        // `true_t` uses the same exact sums as `Exact`. Rationals share no code with it, but are slower.
+        // `true_t` shares exact arithmetic with `Exact`. Rationals share no code with `Exact`.
         if round % 31 == 0 && ray.is_valid() {
             let second = rational::hit_within(&ray, corners);
             assert_eq!(found.map(f32::to_bits), second.map(f32::to_bits), "{ray:?} {corners:?}");
@@ -46,7 +45,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
     assert!(hits > 30_000, "{hits}");
 }
 
-/// A narrow or axis-aligned triangle, for which the bounds of the height are tightest, and a ray at it or beside it.
+/// The error bound for the numerator of `t` is tightest for narrow or axis-aligned triangles.
 pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let mut corners = triangle(rng, unit);
     let width = libm::exp2f(-((rng.next_u32() % 24) as f32));
@@ -67,7 +66,7 @@ pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
 #[test]
 fn the_last_bits_of_eight_hits_are_those_of_each() {
     let mut rng = Pcg32::seed_from_u64(8);
-    let (mut inputs, mut owed, mut len, mut hits, mut seen) = ([[0.0; 8]; INPUTS], vec![], 1, 0, 0);
+    let (mut inputs, mut pending, mut len, mut hits, mut seen) = ([[0.0; 8]; INPUTS], vec![], 1, 0, 0);
     for round in 0..400_000 {
         let (ray, corners) = if round % 2 == 0 { narrow(&mut rng) } else { hard(&mut rng, round / 2) };
         let Some(t) = true_t(&ray, corners) else { continue };
@@ -76,27 +75,25 @@ fn the_last_bits_of_eight_hits_are_those_of_each() {
         let values = Exact::values(first);
         let depth = Exact::decide_at_once(&prepared, &block, 0, &values)
             .unwrap_or_else(|| Exact::decide(&prepared, &block, 0, &values));
-        let lane = (owed.len() + len) % 8;
+        let lane = (pending.len() + len) % 8;
         for (column, input) in inputs.iter_mut().zip(depth.expect("it is hit").inputs(&ray)) {
             column[lane] = input;
         }
         seen += usize::from(inputs[BETWEEN_BOUNDS][lane].is_finite());
-        owed.push((lane, t.to_bits()));
+        pending.push((lane, t.to_bits()));
         hits += 1;
-        if owed.len() == len {
-            let which = owed.iter().fold(0, |which, (lane, _)| which | 1 << lane);
+        if pending.len() == len {
+            let which = pending.iter().fold(0, |which, (lane, _)| which | 1 << lane);
             for level in Level::available() {
                 let ts = last_bits::<<Exact as TriangleTest>::Depth<'_>>(level, &inputs, which).map(f32::to_bits);
-                for &(lane, t) in &owed {
+                for &(lane, t) in &pending {
                     assert_eq!(ts[lane], t, "{level}, {lane} of {which:b}: {inputs:?}");
                 }
             }
-            // Fill unused lanes with zeros or NaN, which are no hit.
             inputs = [[[0.0, f32::NAN][len % 2]; 8]; INPUTS];
-            owed.clear();
+            pending.clear();
             len = 1 + rng.next_u32() as usize % 8;
         }
     }
-    // The filter bounds `t` for at least a quarter of these difficult hits.
     assert!(hits > 200_000 && seen > 50_000, "{seen} of {hits}");
 }

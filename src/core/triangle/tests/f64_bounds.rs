@@ -4,12 +4,12 @@ use dashu_ratio::RBig;
 
 use super::*;
 
-/// The sizes of vectors of a ray and a triangle. A size is the sum of the magnitudes of the components.
+/// A size is the sum of the magnitudes of the components of a vector.
 struct Sizes {
     direction: f64,
     /// The vectors from the origin to each corner.
     corners: [f64; 3],
-    /// The vectors from each corner to the next one.
+    /// The vectors from each corner to the next corner.
     edges: [f64; 3],
 }
 
@@ -27,15 +27,13 @@ impl Sizes {
 
 /// The documented bounds of a test. `outside` and `t` are not yet divided by the determinant.
 struct Bounds {
-    /// The test must find a triangle that is hit if the determinant is larger than this.
+    /// If the magnitude of the determinant is at least this bound, the test must find the hit.
     found: f64,
-    /// How far below zero the barycentrics of a reported hit may be, at the first, second and third corner.
+    /// The barycentric of each corner of a reported hit is at least minus this bound.
     outside: [f64; 3],
-    /// The maximum error of `t` before it is rounded.
     t: f64,
 }
 
-/// The bounds that [`MollerTrumboreF64`] documents.
 fn of_moller_trumbore(sizes: &Sizes, t: f64) -> Bounds {
     let (d, s) = (sizes.direction, sizes.corners[0]);
     let e = sizes.edges[0] + sizes.edges[2];
@@ -43,7 +41,6 @@ fn of_moller_trumbore(sizes: &Sizes, t: f64) -> Bounds {
     Bounds { found: unit * e, outside: [unit * (s + 2.0 * e); 3], t: libm::exp2(-51.0) * e * e * (s + t.abs() * d) }
 }
 
-/// The bounds that [`EdgeF64`] documents.
 fn of_edges(sizes: &Sizes, t: f64) -> Bounds {
     let [a, b, c] = sizes.corners;
     let [ab, bc, ca] = sizes.edges;
@@ -56,13 +53,11 @@ fn f64_of(x: &RBig) -> f64 {
     x.to_f64().value()
 }
 
-/// The distance between floats around `t`.
 fn ulp(t: f64) -> f64 {
     let t = t.abs() as f32;
     f64::from(t.next_up()) - f64::from(t)
 }
 
-/// The numbers of hits and of errors within the documented bounds.
 #[derive(Debug, Default)]
 struct ErrorCounts {
     hits: u32,
@@ -105,7 +100,6 @@ fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64)
     }
 }
 
-/// A needle or sliver, and a ray that grazes it.
 fn needle(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let long = point(rng, unit) * 1e6;
     let thin = |rng: &mut Pcg32| point(rng, unit) * libm::exp2f((rng.next_u32() % 20) as f32 - 8.0);
@@ -126,7 +120,7 @@ fn check_bounds<T: TriangleTest>(bounds: fn(&Sizes, f64) -> Bounds) {
         }
     }
     let ErrorCounts { hits, lost, invented, off } = counts;
-    // The rays must be hard enough to cause such errors, or the bounds remain untested.
+    // Without such errors, the bounds remain untested.
     assert!(hits > 2_000 && lost > 0 && invented > 0 && off > 20, "{}: {counts:?}", T::NAME);
 }
 

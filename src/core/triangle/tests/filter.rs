@@ -1,11 +1,11 @@
-//! Checks that the first stage of the exact test loses no hit, leaves few misses, and is certain only of true hits.
+//! Checks the first stage of the exact test.
 
 use super::super::filter::{FilterBlock, FilterRay, filter_block};
 use super::*;
 use crate::exact::ExactT;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// Runs the first stage for one triangle, in lane 3 of 8: whether it is a candidate, and the bounds of a certain hit.
+/// The output is whether lane 3 is a candidate, and bounds of `t`. The bounds are `None` if the hit is uncertain.
 struct Look<'a>(&'a Ray, [Vec3; 3], f32);
 
 impl Kernel for Look<'_> {
@@ -21,7 +21,7 @@ impl Kernel for Look<'_> {
     }
 }
 
-/// A triangle, and a ray aimed at or beside it from a few times its size away, without overflow and underflow.
+/// These rays and triangles cause no overflow and no underflow.
 fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let scale = libm::exp2f((rng.next_u32() % 80) as f32 - 50.0);
     let corners = triangle(rng, unit).map(|p| p * scale);
@@ -35,7 +35,7 @@ fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
 fn the_first_stage_loses_no_hit_is_right_when_sure_and_leaves_little() {
     let mut rng = Pcg32::seed_from_u64(6);
     let (mut hits, mut sure, mut narrow, mut cut) = (0, 0, 0, 0);
-    // These four count only rays from `near`, and only if the search has no end (`to` is infinite).
+    // These four count only rays from `near` with an infinite `to`.
     let (mut misses, mut kept, mut met, mut unsure) = (0, 0, 0, 0);
     for round in 0..400_000 {
         let (ray, corners) = match round % 3 {
@@ -50,7 +50,6 @@ fn the_first_stage_loses_no_hit_is_right_when_sure_and_leaves_little() {
         let within = |low: f32, high: f32, t: &ExactT| {
             t.compare(low) != Some(std::cmp::Ordering::Less) && t.compare(high) != Some(std::cmp::Ordering::Greater)
         };
-        // The search ends before, at or after the hit, or far away.
         let t = truth.as_ref().map_or(1.0, ExactT::round);
         let to = [f32::INFINITY, t * 0.99, t.next_down(), t, t.next_up()][rng.next_u32() as usize % 5].max(0.0);
         for level in Level::available() {

@@ -1,7 +1,7 @@
 //! FLIP for low dynamic range: the visible difference when a viewer flips between two pictures.
 //!
-//! This implementation departs from the paper in one point: pictures with transparency are compared over black and over
-//! white, and the larger difference of a pixel counts. The paper ignores alpha.
+//! Departure from the paper: pictures with transparency are compared over black and over white. The larger difference
+//! of each pixel counts. The paper ignores alpha.
 //!
 //! # References
 //! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: FLIP: a difference evaluator for alternating
@@ -15,11 +15,11 @@ use image::DynamicImage;
 use super::plane::{Plane, gaussian, in_bands, offsets};
 use crate::golden::layout::Layout;
 
-/// Pixels per degree of visual angle for a screen 0.7 m wide with 3840 pixels at a distance of 0.7 m: the assumption of
-/// the paper.
+/// Pixels per degree of visual angle, as the paper assumes. The screen is 0.7 m wide, has 3840 columns of pixels and is
+/// 0.7 m away.
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
-/// FLIP of each pixel, from 0 (equal) to 1. The pictures must have one layout without floats.
+/// FLIP of each pixel, from 0 (equal) to 1. The pictures must have the same layout, without floats.
 pub fn flip(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) -> Vec<f32> {
     let layout = Layout::of(one);
     let filters = Filters::new(pixels_per_degree);
@@ -38,9 +38,8 @@ pub fn flip(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) ->
     black.iter().zip(over(1.0)).map(|(black, white)| black.max(white)).collect()
 }
 
-/// One-dimensional weights of the filters.
 struct Filters {
-    /// Contrast sensitivity: one Gaussian each for lightness and red-green, two weighted Gaussians for blue-yellow.
+    /// Contrast sensitivity. Blue-yellow has two weighted Gaussians.
     lightness: Vec<f64>,
     red_green: Vec<f64>,
     blue_yellow: [(f64, Vec<f64>); 2],
@@ -52,12 +51,11 @@ struct Filters {
 
 impl Filters {
     fn new(pixels_per_degree: f64) -> Self {
-        // The term `a sqrt(π/b) exp(-π² x²/b)` of the paper, x in degrees, is a Gaussian. `deviation` is its standard
-        // deviation in pixels. The widest Gaussian determines the window of all terms.
+        // The term `a sqrt(π/b) exp(-π² x²/b)` of the paper, with x in degrees, is a Gaussian. `deviation` is its
+        // standard deviation in pixels. The widest Gaussian determines the window of all terms.
         let deviation = |b: f64| (b / (2.0 * PI * PI)).sqrt() * pixels_per_degree;
         let reach = (3.0 * deviation(0.04)).ceil() as usize;
         let term = |b| gaussian(reach, deviation(b));
-        // The weight of a blue-yellow Gaussian is its sum over the window, divided by the sum of both Gaussians.
         let sum = |a: f64, b: f64| {
             let weights = offsets(reach).map(|x| libm::exp(-x * x / (2.0 * deviation(b) * deviation(b))));
             let across: f64 = weights.sum();
@@ -88,14 +86,12 @@ impl Filters {
     }
 }
 
-/// Scales the positive weights to the sum 1, and the negative weights to the sum -1.
 fn balanced(weights: Vec<f64>) -> Vec<f64> {
     let sum = |sign: f64| weights.iter().map(|weight| (sign * weight).max(0.0)).sum::<f64>();
     let (above, below) = (sum(1.0), sum(-1.0));
     weights.iter().map(|weight| weight / if *weight > 0.0 { above } else { below }).collect()
 }
 
-/// The perceived values of some rows: colours, and the strengths of edges and points.
 struct Perceived {
     lab: Vec<DVec3>,
     edges: Vec<f64>,
@@ -134,7 +130,6 @@ impl Perceived {
     }
 }
 
-/// Linear RGB of the bytes of a pixel over the grey `background`.
 fn linear(layout: &Layout, pixel: &[u8], background: f64) -> DVec3 {
     let mut values = [0.0; 4];
     layout.values(pixel).zip(&mut values).for_each(|(own, value)| *value = own / layout.full_scale());
@@ -159,18 +154,17 @@ const XYZ: DMat3 = DMat3::from_cols_array(&[
 ]);
 
 /// XYZ of a linear RGB colour, divided by XYZ of white.
-fn of_white(rgb: DVec3) -> DVec3 {
+fn relative_to_white(rgb: DVec3) -> DVec3 {
     XYZ * rgb / (XYZ * DVec3::ONE)
 }
 
-/// YCxCz, a linear relative of CIELAB.
+/// Converts linear RGB to YCxCz, a linear relative of CIELAB.
 fn opponent(rgb: DVec3) -> DVec3 {
-    let xyz = of_white(rgb);
+    let xyz = relative_to_white(rgb);
     DVec3::new(116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z))
 }
 
-/// CIELAB of a filtered colour in YCxCz, after clamping the colour to the RGB cube. Chroma is scaled by lightness (Hunt
-/// effect).
+/// Converts a filtered colour from YCxCz to CIELAB. `lab` scales chroma by lightness (Hunt effect).
 fn perceived(colour: DVec3) -> DVec3 {
     let y = (colour.x + 16.0) / 116.0;
     let xyz = DVec3::new(y + colour.y / 500.0, y, y - colour.z / 200.0);
@@ -180,19 +174,17 @@ fn perceived(colour: DVec3) -> DVec3 {
 fn lab(rgb: DVec3) -> DVec3 {
     let delta: f64 = 6.0 / 29.0;
     let root = |t: f64| if t > delta.powi(3) { libm::cbrt(t) } else { t / (3.0 * delta * delta) + 4.0 / 29.0 };
-    let [x, y, z] = of_white(rgb).to_array().map(root);
+    let [x, y, z] = relative_to_white(rgb).to_array().map(root);
     let lightness = 116.0 * y - 16.0;
     DVec3::new(lightness, 5.0 * lightness * (x - y), 2.0 * lightness * (y - z))
 }
 
-/// The HyAB distance of two colours. The Euclidean distance would underestimate large differences.
 fn hyab(one: DVec3, other: DVec3) -> f64 {
     let gap = one - other;
     gap.x.abs() + (gap.y * gap.y + gap.z * gap.z).sqrt()
 }
 
-/// Maps `distance`, a HyAB distance to the power 0.7, to 0..1. The largest distance is between green and blue.
-/// Distances from 0 to 40 % of it are mapped to 0..0.95.
+/// `distance` is a HyAB distance to the power 0.7. The largest distance is between green and blue.
 fn spread(distance: f64) -> f64 {
     let most = libm::pow(hyab(lab(DVec3::Y), lab(DVec3::Z)), 0.7);
     let bend = 0.4 * most;

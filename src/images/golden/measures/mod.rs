@@ -15,31 +15,27 @@ use super::mask::Mask;
 
 pub use flip::PIXELS_PER_DEGREE;
 
-/// The measures of two pictures. An undefined measure is `None` or not finite, and null in JSON.
+/// An undefined measure is `None` or not finite, and null in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Measures {
-    /// The number of compared pixels: all except the masked pixels.
     pub compared: usize,
     pub masked: usize,
     #[serde(flatten)]
     pub difference: Difference,
     /// The number of pixels that differ by more than the tolerance.
     pub pixels_over: usize,
-    /// The mean difference over all channels of all compared pixels, in the unit of `full_scale`.
+    /// The mean over all channels of all compared pixels, in the unit of `full_scale`.
     pub mean: f64,
     /// The peak signal-to-noise ratio in dB.
     pub psnr: f64,
-    /// The mean structural similarity of the compared pixels whose window is inside the picture.
+    /// The mean over the compared pixels whose window is inside the picture.
     pub ssim: Option<f64>,
-    /// `None` for floats.
     pub flip: Option<Flip>,
 }
 
-/// FLIP over the compared pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Flip {
     pub mean: f64,
-    /// The 95th percentile over the pixels.
     pub percentile_95: f64,
     pub largest: f64,
 }
@@ -52,13 +48,12 @@ pub struct FlipMap {
 }
 
 impl FlipMap {
-    /// FLIP of two pictures of one layout; `None` for floats.
+    /// `None` for floats. The pictures must have the same layout.
     pub fn new(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) -> Option<Self> {
         let layout = Layout::of(one);
         (!layout.is_float()).then(|| Self { size: layout.size, values: flip::flip(one, other, pixels_per_degree) })
     }
 
-    /// The summary over the unmasked pixels.
     pub fn summary(&self, mask: Option<&Mask>) -> Flip {
         let compared = self.values.iter().enumerate().filter(|(i, _)| Mask::compares(mask, *i));
         let mut values: Vec<f32> = compared.map(|(_, value)| *value).collect();
@@ -74,8 +69,7 @@ impl FlipMap {
 }
 
 impl Measures {
-    /// The measures of two different pictures. Their masked pixels must be equal. `pixels_over` counts the pixels that
-    /// differ by more than `tolerance`.
+    /// The masked pixels of the pictures must be equal.
     pub fn new(
         [one, other]: [&DynamicImage; 2],
         difference: Difference,
@@ -84,7 +78,7 @@ impl Measures {
         mask: Option<&Mask>,
     ) -> Self {
         let layout = Layout::of(one);
-        let masked = mask.map_or(0, Mask::masked);
+        let masked = mask.map_or(0, Mask::masked_pixels);
         let compared = layout.pixels() - masked;
         let numbers = (compared * usize::from(layout.channels)) as f64;
         let values = |picture| DynamicImage::as_bytes(picture).chunks_exact(layout.bytes_per_pixel());
@@ -105,8 +99,7 @@ impl Measures {
         }
     }
 
-    /// The measures of pictures whose values are names, such as numbers of primitives. Only the numbers of pixels stay,
-    /// because the size of a difference between names has no meaning.
+    /// Keeps only the counts of pixels. The size of a difference between primitive numbers has no meaning.
     #[must_use]
     pub fn without_sizes(self) -> Self {
         let difference = Difference { worst: self.difference.first, largest: f64::NAN, ..self.difference };

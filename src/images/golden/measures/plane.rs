@@ -1,4 +1,4 @@
-//! Separable convolution, for the measures with a window: FLIP and SSIM.
+//! Separable convolution for FLIP and SSIM.
 
 use std::ops::Range;
 
@@ -13,11 +13,9 @@ pub struct Plane {
 /// Rows per band.
 const BAND: usize = 64;
 
-/// A number for each pixel of a picture, computed in parallel for bands of rows. `of` receives the row indices of a
-/// band and of `reach` rows above and below it, and returns one number per pixel of these rows. Beyond the edge of the
-/// picture, the index of the outermost row is repeated.
-///
-/// The temporary memory of a thread is proportional to the size of a band. The numbers do not depend on the bands.
+/// Computes one number per pixel, in parallel for bands of rows. `of` receives the row indices of a band, with `reach`
+/// more rows above and below. Beyond the edge of the picture, the outermost row is repeated. `of` returns one number
+/// per pixel of all these rows.
 pub fn in_bands(size: [u32; 2], reach: usize, of: impl Fn(&[usize]) -> Vec<f64> + Sync) -> Vec<f32> {
     let [width, height] = size.map(|side| side as usize);
     let bands: Vec<Range<usize>> = (0..height).step_by(BAND).map(|top| top..height.min(top + BAND)).collect();
@@ -35,13 +33,10 @@ impl Plane {
         Self { width, values }
     }
 
-    /// The product of each value and the corresponding value of `other`.
     pub fn times(&self, other: &Self) -> Self {
         Self::new(self.width, self.values.iter().zip(&other.values).map(|(one, other)| one * other).collect())
     }
 
-    /// Each value convolved with its neighbours, weighted by `across` in a row and `down` in a column. Beyond the edge,
-    /// the outermost value is repeated.
     pub fn convolved(&self, across: &[f64], down: &[f64]) -> Self {
         let (width, reach) = (self.width, across.len() / 2);
         let mut rows = vec![0.0; self.values.len()];
@@ -65,19 +60,16 @@ impl Plane {
     }
 }
 
-/// Adds the first values of `row`, multiplied by `weight`, to `sums`.
 fn add(sums: &mut [f64], weight: f64, row: &[f64]) {
     sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += weight * value);
 }
 
-/// The weights of a Gaussian from `-reach` to `reach`, with the sum 1.
 pub fn gaussian(reach: usize, sigma: f64) -> Vec<f64> {
     let weights: Vec<f64> = offsets(reach).map(|x| libm::exp(-x * x / (2.0 * sigma * sigma))).collect();
     let sum: f64 = weights.iter().sum();
     weights.iter().map(|weight| weight / sum).collect()
 }
 
-/// The whole numbers from `-reach` to `reach`.
 pub fn offsets(reach: usize) -> impl Iterator<Item = f64> {
     (0..=2 * reach).map(move |i| i as f64 - reach as f64)
 }

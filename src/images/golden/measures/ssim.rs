@@ -9,7 +9,7 @@ use image::DynamicImage;
 use super::plane::{Plane, gaussian, in_bands};
 use crate::golden::layout::Layout;
 
-/// The Gaussian window: the number of pixels on each side of its centre, and its standard deviation.
+/// The number of pixels on each side of the centre of the Gaussian window.
 const REACH: usize = 5;
 const SIGMA: f64 = 1.5;
 
@@ -17,8 +17,8 @@ const SIGMA: f64 = 1.5;
 const C1: f64 = 1e-4;
 const C2: f64 = 9e-4;
 
-/// The mean SSIM of all channels, including alpha. A pixel counts if it is `compared` and its window is inside the
-/// pictures. The result is `None` if no pixel counts or the mean is not finite. Full scale of floats is 1.
+/// The mean over all channels, including alpha. A pixel counts only if its window is inside the pictures. The result is
+/// `None` if no pixel counts or the mean is not finite.
 pub fn ssim(one: &DynamicImage, other: &DynamicImage, compared: impl Fn(usize) -> bool) -> Option<f64> {
     let layout = Layout::of(one);
     let [width, height] = layout.size.map(|side| side as usize);
@@ -47,7 +47,6 @@ pub fn ssim(one: &DynamicImage, other: &DynamicImage, compared: impl Fn(usize) -
     mean.is_finite().then_some(mean)
 }
 
-/// The values of a channel in some rows, divided by full scale.
 fn channel_of(picture: &DynamicImage, layout: &Layout, channel: usize, rows: &[usize]) -> Vec<f64> {
     let (width, bytes) = (layout.size[0] as usize, layout.bytes_per_pixel());
     let pixels =

@@ -7,7 +7,6 @@ use super::Entry;
 use crate::golden::measures::Measures;
 use crate::plural::count;
 
-/// The name and the text of each finite measure.
 fn numbers(measures: &Measures) -> Vec<(&'static str, String)> {
     let Measures { compared, masked, difference, pixels_over, mean, psnr, ssim, flip } = measures;
     let whole = |pixels: usize| count(pixels as u64);
@@ -30,13 +29,11 @@ fn numbers(measures: &Measures) -> Vec<(&'static str, String)> {
     numbers
 }
 
-/// The template's values for a comparison.
 fn value(entry: Entry) -> Value {
     let numbers = entry.comparison.measures.as_ref().map(numbers).unwrap_or_default();
     context! { numbers => numbers, ..Value::from(Serde(entry)) }
 }
 
-/// The HTML of the page. The comparisons are sorted by verdict, failing ones first, then by number.
 pub fn page(title: &str, mut entries: Vec<Entry>) -> String {
     entries.sort_by_key(|entry| (entry.comparison.verdict, entry.number));
     let mut environment = Environment::new();

@@ -1,4 +1,4 @@
-//! A page of comparisons: overlaid pictures, their differences and the values of their pixels.
+//! Writes a page that shows comparisons of pictures.
 
 #[cfg(feature = "page")]
 mod html;
@@ -21,16 +21,14 @@ pub use side::{PicturePair, Values};
 
 const INDEX: &str = "index.html";
 
-/// A page that is being written. Several threads may add comparisons in any order.
 pub struct Page<'a> {
     folder: &'a Path,
     entries: Mutex<Vec<Entry>>,
 }
 
-/// The template's values for a comparison.
+/// The template `page.html` reads these fields by name.
 #[derive(Clone, Debug, Serialize)]
 struct Entry {
-    /// The index in the order of comparisons; part of the file names.
     number: usize,
     #[serde(flatten)]
     comparison: Comparison,
@@ -38,7 +36,6 @@ struct Entry {
     size: [u32; 2],
     worst: [u32; 2],
     maps: Vec<Map>,
-    /// The file of a script with the values of the pixels.
     values: Option<String>,
 }
 
@@ -48,8 +45,7 @@ struct Map {
     file: String,
 }
 
-/// Writes a page and its pictures into a folder; `fill` adds the comparisons. Without the feature `page`, the folder
-/// contains no HTML.
+/// Writes a page and its pictures into a folder. Without the feature `page`, the folder contains no HTML.
 ///
 /// # Errors
 /// If the page or its pictures cannot be written.
@@ -71,13 +67,11 @@ pub fn write<T>(
     })
 }
 
-/// The HTML file of the page in `folder`, or `folder` itself without the feature `page`.
 pub fn index(folder: &Path) -> PathBuf {
     if cfg!(feature = "page") { folder.join(INDEX) } else { folder.into() }
 }
 
 impl Page<'_> {
-    /// Adds a comparison with its pictures. If the pictures are equal, the page shows only the expected picture.
     pub fn add(
         &self,
         number: usize,

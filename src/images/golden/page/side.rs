@@ -1,4 +1,4 @@
-//! Converts a picture of a comparison to a PNG picture, and its values to a script for the page.
+//! Converts the pictures of a comparison for the page.
 
 use image::DynamicImage;
 use serde_json::json;
@@ -7,7 +7,6 @@ use crate::golden::Layout;
 use crate::golden::numbers::{MISS, unpacked};
 use crate::render::{ViewKind, depth_picture, from_pixels, identity};
 
-/// The pictures of a comparison; `None` if a picture is missing.
 #[derive(Clone, Copy)]
 pub struct PicturePair<'a> {
     pub expected: Option<&'a DynamicImage>,
@@ -15,10 +14,8 @@ pub struct PicturePair<'a> {
     pub values: Values,
 }
 
-/// The meaning of the values in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
-    /// The channels of colours.
     Colours,
     /// Distances, the same in all channels.
     Depths,
@@ -36,7 +33,6 @@ impl From<ViewKind> for Values {
     }
 }
 
-/// Converts the picture for PNG: depths and primitives become colours, and other floats become 8-bit values.
 pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
     let layout = Layout::of(picture);
     match (values, picture) {
@@ -52,14 +48,14 @@ pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
     }
 }
 
-/// A script that passes the values of all pixels to the page. Browsers do not let a local page read its pictures.
+/// This script passes the values to the page, because browsers do not let a local page read pictures.
 pub fn values(number: usize, sides: PicturePair) -> String {
     let of = |picture: Option<&DynamicImage>| picture.map(|picture| numbers(picture, sides.values));
     let data = json!({ "expected": of(sides.expected), "actual": of(sides.actual) });
     format!("saharaValues({number}, {data});\n")
 }
 
-/// The JSON of a picture: type, channels, size, and the values as little-endian bytes in base 64.
+/// The values are little-endian bytes in base 64.
 fn numbers(picture: &DynamicImage, values: Values) -> serde_json::Value {
     let Layout { size, channels, bits } = Layout::of(picture);
     let of = |kind: &str, channels: u8, bytes: &[u8]| json!({ "type": kind, "channels": channels, "size": size, "base64": base64::encode(bytes) });

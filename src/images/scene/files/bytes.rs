@@ -1,21 +1,19 @@
-//! The header of 32 bytes that begins ray, hit and truth files, and functions that read numbers from these files.
+//! Reads and writes the 32-byte header of ray, hit and truth files.
 
 use sha2::{Digest, Sha256};
 
 use crate::accel::Query;
 use crate::scene::Workload;
 
-/// The identity of a set of rays. The headers of its ray, hit and truth files contain it.
+/// Identifies a set of rays in the headers of ray, hit and truth files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RaysId {
-    /// The query of all rays.
     pub query: Query,
     pub(super) count: u64,
     pub(super) hash: [u8; 8],
 }
 
 impl RaysId {
-    /// The identity of the rays of a workload.
     pub fn of(workload: &Workload) -> Self {
         Self { query: workload.query, count: workload.rays.len() as u64, hash: rays_hash(&workload.bytes()) }
     }
@@ -34,7 +32,6 @@ pub(super) const HEADER_BYTES: usize = 32;
 
 const VERSION: u32 = 1;
 
-/// Reads the header of a file. The file contains `what` (rays or hits) and must begin with `magic`.
 pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<RaysId, String> {
     if bytes.len() < 8 || bytes[..8] != magic[..] {
         let magic = String::from_utf8_lossy(magic);
@@ -59,17 +56,15 @@ pub(super) fn header(bytes: &[u8], magic: &[u8; 8], what: &str) -> Result<RaysId
     Ok(RaysId { query, count: u64::from_le_bytes(eight(16)), hash: eight(24) })
 }
 
-/// The hash of rays in file headers: the first 8 bytes of the SHA-256 of [`Workload::bytes`].
+/// The first 8 bytes of the SHA-256 of [`Workload::bytes`].
 pub(super) fn rays_hash(rays: &[u8]) -> [u8; 8] {
     Sha256::digest(rays)[..8].try_into().expect("eight bytes")
 }
 
-/// The `u32` at byte `at`. Panics if there are fewer than four bytes from `at`.
 pub(super) fn number(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"))
 }
 
-/// The bytes from `at` to the end. Returns an error if their number is not `count` times `size`.
 pub(super) fn body(bytes: &[u8], at: usize, count: u64, size: u64) -> Result<&[u8], String> {
     let length = bytes.len();
     let short = || format!("the file is truncated: it has {length} bytes, but the first item begins at byte {at}");

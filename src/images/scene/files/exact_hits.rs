@@ -4,10 +4,10 @@ use super::bytes::RaysId;
 use crate::accel::Query;
 use crate::scene::Workload;
 
-/// An exact hit: `t`, and the ascending numbers of all triangles at this `t` (at least one). A miss is `None`.
+/// The distance `t`, and the ascending numbers of all triangles at this distance (at least one). A miss is `None`.
 pub type ExactHit = Option<(f64, Vec<u32>)>;
 
-/// The bytes of a truth file: the exact closest hits of all rays of `workload`, in the order of the rays.
+/// `hits` are the exact closest hits, in the order of the rays.
 ///
 /// # Panics
 /// If the numbers of hits and rays differ, or if the query of the workload is any hit.

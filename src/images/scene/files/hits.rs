@@ -12,7 +12,6 @@ use crate::scene::hash::hexadecimal;
 /// The hits of a set of rays, in the order of the rays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HitFile {
-    /// The identity of the rays.
     pub rays: RaysId,
     hits: Vec<Option<Hit>>,
 }
@@ -23,8 +22,6 @@ const MAGIC: &[u8; 8] = b"SAHAHITS";
 const MISS: u32 = u32::MAX;
 
 impl HitFile {
-    /// The hits of all rays of `workload`.
-    ///
     /// # Panics
     /// If the numbers of hits and rays differ.
     pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
@@ -44,8 +41,6 @@ impl HitFile {
         Ok(file.write(&self.to_bytes())?)
     }
 
-    /// The hits, if they belong to `rays`.
-    ///
     /// # Errors
     /// If the hits belong to other rays or another query.
     pub fn hits_of(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
@@ -77,7 +72,6 @@ pub fn hits_to_bytes(hits: &[Option<Hit>]) -> Vec<u8> {
     hits.iter().flat_map(numbers).flat_map(u32::to_le_bytes).collect()
 }
 
-/// The inverse of [`hits_to_bytes`].
 pub fn hits_from_bytes(bytes: &[u8]) -> Vec<Option<Hit>> {
     let hit = |bytes: &[u8]| match number(bytes, 4) {
         MISS => None,

@@ -21,7 +21,6 @@ pub use hits::{HitFile, hits_from_bytes, hits_to_bytes};
 pub use mesh::mesh_bytes;
 pub use rays::RayFile;
 
-/// The reason why a ray or hit file cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     #[error("cannot read {}: {cause}: check that it exists and its permissions", path.escaped())]
@@ -32,7 +31,7 @@ pub enum FileError {
     Write(#[from] OutputError),
 }
 
-/// Parses a file. Reads only its first bytes if they are not `magic`, because such a file may be large or endless.
+/// Reads the whole file only if it begins with `magic`, because another file may be endless.
 fn read<F>(path: &Path, magic: &[u8; 8], parse: fn(&[u8]) -> Result<F, String>) -> Result<F, FileError> {
     let bytes = || {
         let (mut file, mut bytes) = (File::open(path)?, vec![]);

@@ -14,11 +14,10 @@ use crate::scene::{Scene, Workload};
 /// A workload and the scene for which it was made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayFile {
-    /// Name of the scene; may be empty.
+    /// The name may be empty.
     pub scene: String,
-    /// [`Scene::hash`], in hexadecimal; `None` for rays without a scene.
+    /// [`Scene::hash`]. `None` for rays without a scene.
     pub scene_hash: Option<String>,
-    /// The rays, and the name and query of their workload.
     pub workload: Workload,
 }
 
@@ -27,7 +26,6 @@ const MAGIC: &[u8; 8] = b"SAHARAYS";
 const NAMES: usize = 72;
 
 impl RayFile {
-    /// The rays of `workload`, made for `scene`.
     pub fn new(scene: &Scene, workload: Workload) -> Self {
         Self { scene: scene.name.clone(), scene_hash: Some(scene.hash()), workload }
     }
@@ -44,11 +42,8 @@ impl RayFile {
         Ok(file.write(&self.to_bytes())?)
     }
 
-    /// Checks whether a ray file may contain `rays`.
-    ///
     /// # Errors
-    /// If there are no rays, if an origin or direction is not finite, or if an end of an interval is NaN. The message
-    /// has the position of the ray, counted from 1.
+    /// If there are no rays, if an origin or direction is not finite, or if an end of an interval is NaN.
     pub fn check(rays: &[Ray]) -> Result<(), String> {
         let bad = |ray: &Ray| {
             let finite = ray.origin.is_finite() && ray.direction.is_finite();
@@ -61,8 +56,6 @@ impl RayFile {
         }
     }
 
-    /// Checks the names of the scene and of the workload.
-    ///
     /// # Errors
     /// If a name contains a control character, which would garble tables.
     pub fn check_names(scene: &str, kind: &str) -> Result<(), String> {
@@ -88,7 +81,6 @@ impl RayFile {
         }
     }
 
-    /// The bytes of the file.
     pub fn to_bytes(&self) -> Vec<u8> {
         let Workload { name, query, rays } = &self.workload;
         let body = self.workload.bytes();

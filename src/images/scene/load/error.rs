@@ -1,4 +1,4 @@
-//! Why a file cannot be loaded.
+//! Errors of mesh files.
 
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::escaped::Escaped as _;
 use crate::geometry::MeshError;
 
-/// An error of a mesh file in one line: the file, the location in it, the problem and a remedy.
+/// Each message is one line with the file, the place in the file, the problem and a remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     #[error("{}: unknown extension: use an .obj, .ply, .gltf or .glb file", file.escaped())]
@@ -15,15 +15,15 @@ pub enum LoadError {
     Folder { file: PathBuf },
     #[error("{}: cannot read the file ({cause}): check that it exists and its permissions", file.escaped())]
     Unreadable { file: PathBuf, cause: std::io::Error },
-    /// The place of the problem in the file, such as `, line 3`, is empty for the file as a whole.
+    /// `place` begins with a comma, such as `, line 3`, or is empty.
     #[error("{}{place}: {problem}", file.escaped())]
     Malformed { file: PathBuf, place: String, problem: String },
-    /// The arrays of the file are no mesh; numbers count from 0.
+    /// Numbers in `cause` count from 0.
     #[error("{}: {cause}", file.escaped())]
     Mesh { file: PathBuf, cause: MeshError },
 }
 
-/// A problem found by a reader, which does not know the name of its file.
+/// A problem in a file whose name the reader does not know.
 #[derive(Debug)]
 pub(super) struct Fault {
     pub place: String,
@@ -39,17 +39,16 @@ impl Fault {
         Self::part(format!("line {line}"), problem)
     }
 
-    /// A part has its name in the format, such as `accessor 3`, counted from 0.
+    /// `part` has a name in the format, such as `accessor 3`, counted from 0.
     pub fn part(part: impl Display, problem: impl Into<String>) -> Self {
         Self { place: format!(", {part}"), problem: problem.into() }
     }
 }
 
-/// A piece of a file for a one-line message: escaped, and cut after 60 characters.
 pub(super) fn quoted(text: impl AsRef<[u8]>) -> String {
     const LONGEST: usize = 60;
     let text = text.as_ref().trim_ascii();
-    // No character has more than four bytes.
+    // A character has at most four bytes.
     let start = String::from_utf8_lossy(&text[..text.len().min(4 * LONGEST + 4)]);
     let escaped: String = start.chars().take(LONGEST).flat_map(char::escape_debug).collect();
     let more = if start.chars().nth(LONGEST).is_some() { "..." } else { "" };

@@ -1,11 +1,10 @@
-//! The files that a mesh file names.
+//! Opens the files that a mesh file names.
 
 use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Component, Path, PathBuf};
 
-/// The path of a file in `folder` or below it, without `.` and `..`; none if it leads out of it. The file has these bytes as
-/// its name, which need not be text.
+/// Returns `None` if the path leaves `folder`. `name` need not be UTF-8.
 pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
     #[cfg(unix)]
     let name: &std::ffi::OsStr = std::os::unix::ffi::OsStrExt::from_bytes(name);
@@ -21,7 +20,7 @@ pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
     below.map(|below| folder.join(below))
 }
 
-/// Reads at most `longest` bytes of a regular file: a pipe or a device might never end.
+/// Rejects all files except regular files, because a pipe or a device might never end.
 pub(super) fn read_start(path: &Path, longest: u64) -> io::Result<Vec<u8>> {
     let file = fs::metadata(path)?;
     if !file.is_file() {

@@ -20,19 +20,17 @@ use crate::geometry::Mesh;
 
 pub use error::LoadError;
 
-/// Reads a mesh file. Its extension, in any case, determines the format: `.obj`, `.ply`, `.gltf` or `.glb`.
+/// The extension determines the format: `.obj`, `.ply`, `.gltf` or `.glb`, in upper or lower case.
 ///
-/// Polygons are split into triangles, glTF node graphs are expanded, textures are ignored. [`Model::notes`] lists what
-/// was left out or replaced. The model has at least one material and one triangle, and [`Mesh::new`] accepts its
-/// arrays.
+/// [`Model::notes`] lists the parts that are left out or replaced. The model has at least one material and one
+/// triangle. [`Mesh::new`] accepts the arrays of the model.
 ///
-/// Files that the file refers to are read if their path stays below its folder; a symbolic link there may lead
-/// anywhere. A file is checked before memory is allocated for its triangles, and the memory is limited by its size: a
-/// glTF file has at most 2^24 triangles and vertices more than its files have bytes, its text at most 2^16 objects and
-/// one for each 48 bytes, and a face of a PLY file at most 2^20 corners.
+/// Referenced files are read if their path stays below the folder of the file. A symbolic link may leave this folder.
+/// The size of the file limits the memory.
 ///
 /// # Errors
-/// A file that cannot be read or breaks its format, a vertex that is not finite, an index out of range, no triangles.
+/// If the file cannot be read or breaks the format, a vertex is not finite, an index is out of range, or there are no
+/// triangles.
 pub fn load(path: &Path) -> Result<Model, LoadError> {
     if path.is_dir() {
         return Err(LoadError::Folder { file: path.into() });

@@ -1,4 +1,4 @@
-//! Wavefront MTL, the materials of OBJ files, by tobj.
+//! Wavefront MTL: the materials of OBJ files, read with the crate `tobj`.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -9,15 +9,15 @@ use indexmap::{IndexMap, IndexSet};
 use super::error::quoted;
 use super::files::{named_below, read_start};
 use super::notes::Notes;
-use super::text::{lines, name, plain, words};
+use super::text::{lines, name, without_byte_order_mark, words};
 use crate::escaped::Escaped as _;
 use crate::scene::Material;
 
-/// By their names, the materials that a library defines, and whether they have a texture.
+/// A material is `None` until a library defines it. The flag is set if the material has a texture.
 type Materials = IndexMap<Vec<u8>, Option<(Material, bool)>>;
 
-/// Reads the materials with these names, each library once. A library that cannot be read gives a note and not an error,
-/// because the mesh is complete without it. Of two materials with one name the later counts.
+/// A library that cannot be read gives a note, not an error, because the mesh is complete without materials. A later
+/// material replaces an earlier material with the same name.
 pub(super) fn read(
     libraries: IndexSet<Vec<u8>>,
     names: IndexSet<Vec<u8>>,
@@ -45,7 +45,7 @@ pub(super) fn read(
     all.collect()
 }
 
-/// The files that a line names: one file whose name contains spaces, if it exists, otherwise several.
+/// A line names one file, whose name may contain spaces, or several files.
 fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Result<PathBuf, String>> + 'a> {
     let path = move |name: &[u8]| {
         let slashes: Vec<u8> = name.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect();
@@ -62,11 +62,11 @@ fn read_library(path: &Path, materials: &mut Materials, notes: &mut Notes) -> Re
     let shown = path.escaped();
     let unread = |cause| format!("cannot read the materials in {shown} ({cause})");
     let bytes = read_start(path, u64::MAX).map_err(unread)?;
-    let text = plain(&bytes).map_err(|fault| format!("{shown}: {}", fault.problem))?;
-    // The current material; none if no face uses it.
+    let text = without_byte_order_mark(&bytes).map_err(|fault| format!("{shown}: {}", fault.problem))?;
+    // `None` if no face uses the current material.
     let mut current = None;
     for (number, line) in lines(text) {
-        // tobj refuses the empty name, to which `usemtl` alone refers, and keeps a comment after a name.
+        // tobj would reject an empty name, and keep a comment after a name.
         if words(line).next() == Some(b"newmtl") {
             let name = name(line);
             let defined = materials.get_mut(name);
@@ -80,7 +80,6 @@ fn read_library(path: &Path, materials: &mut Materials, notes: &mut Notes) -> Re
     Ok(())
 }
 
-/// Reads a line about a material; none if its numbers are wrong.
 fn read_value(line: &[u8], (material, has_texture): &mut (Material, bool)) -> Option<()> {
     let mut words = words(line);
     match words.next() {
@@ -102,9 +101,8 @@ fn read_value(line: &[u8], (material, has_texture): &mut (Material, bool)) -> Op
     Some(())
 }
 
-/// The values of a statement; empty if it is wrong. tobj gets each separately, because a value that it rejects voids
-/// the whole library; it panics on a colour of fewer than three numbers (a single one is a grey), and accepts nan and
-/// inf.
+/// tobj reads each statement separately, because an invalid value voids a whole library. tobj panics on a colour with
+/// fewer than three numbers, and accepts nan and inf. A single number is a grey.
 fn values(line: &[u8]) -> Option<tobj::Material> {
     let line = str::from_utf8(line).ok()?;
     let words: Vec<&str> = line.split_whitespace().take_while(|word| !word.starts_with('#')).collect();

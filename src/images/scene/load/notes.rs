@@ -2,17 +2,15 @@
 
 use crate::plural::plural;
 
-/// Sentences without repetition, limited in number.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
     kept: Vec<String>,
     more: usize,
 }
 
-/// The most sentences; further ones are only counted.
+/// Further sentences are only counted.
 const MOST: usize = 12;
 
-/// The remark of [`Notes::count`] about faces that make no triangle.
 pub(super) const SMALL: &str = "with fewer than three corners: ignored";
 
 impl Notes {
@@ -25,7 +23,7 @@ impl Notes {
         }
     }
 
-    /// Adds a sentence about all parts of a kind, unless there are none; it is never left out.
+    /// This sentence is never left out.
     pub fn count(&mut self, count: usize, kind: &str, remark: &str) {
         if count > 0 {
             self.kept.push(format!("{} {remark}", plural(count, kind)));

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use super::error::Fault;
 
-/// The text without a UTF-8 byte order mark.
-pub(super) fn plain(bytes: &[u8]) -> Result<&[u8], Fault> {
+/// Removes a UTF-8 byte order mark.
+pub(super) fn without_byte_order_mark(bytes: &[u8]) -> Result<&[u8], Fault> {
     match bytes {
         [0xef, 0xbb, 0xbf, text @ ..] => Ok(text),
         // A byte order mark of UTF-16 or UTF-32, or two ASCII characters in UTF-16.
@@ -16,14 +16,13 @@ pub(super) fn plain(bytes: &[u8]) -> Result<&[u8], Fault> {
     }
 }
 
-/// The lines of a text with their numbers from 1. They end with `\n`, `\r\n` or `\r`, which are not included.
+/// Lines end with `\n`, `\r\n` or `\r`. Numbers count from 1.
 pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let lines = text.split(|&byte| byte == b'\n').map(|line| line.strip_suffix(b"\r").unwrap_or(line));
     (1..).zip(lines.flat_map(|line| line.split(|&byte| byte == b'\r')))
 }
 
-/// Statements with the numbers of their first lines. A line whose last character is `\` continues in the next, unless
-/// it ends in a comment.
+/// A `\` at the end of a line without a comment continues the line. The number of a statement is its first line.
 pub(super) fn statements(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
     let mut lines = lines(text);
     std::iter::from_fn(move || {
@@ -57,7 +56,7 @@ fn all_words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// The name after a keyword, without a comment: that follows a `#` of its own, for `Material #2` is a name.
+/// The name after a keyword. A `#` begins a comment only between spaces, because `Material #2` is a name.
 pub(super) fn name(line: &[u8]) -> &[u8] {
     let line = line.trim_ascii_start();
     let keyword = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
@@ -88,12 +87,12 @@ mod tests {
 
     #[test]
     fn wide_text_is_refused_and_a_byte_order_mark_is_skipped() {
-        assert_eq!(plain(b"\xef\xbb\xbfv 0").unwrap(), b"v 0");
+        assert_eq!(without_byte_order_mark(b"\xef\xbb\xbfv 0").unwrap(), b"v 0");
         for wide in
             [&b"\xff\xfev\0 \0"[..], b"\xfe\xff\0v", b"v\0 \x000\0", b"\0v\0 ", b"\0\0\xfe\xff\0\0\0v", b"v\0\0\0"]
         {
-            assert!(plain(wide).unwrap_err().problem.contains("UTF-16"));
+            assert!(without_byte_order_mark(wide).unwrap_err().problem.contains("UTF-16"));
         }
-        assert!(plain(&[0; 8]).is_ok() && plain(b"").is_ok());
+        assert!(without_byte_order_mark(&[0; 8]).is_ok() && without_byte_order_mark(b"").is_ok());
     }
 }

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-/// The neighbourhood of a vertex: number of faces, sums of points, and whether the vertex is on the boundary.
 #[derive(Clone, Copy, Default)]
 struct Around {
     faces: f64,
@@ -20,8 +19,8 @@ struct Edge {
     face_points: DVec3,
 }
 
-/// Splits every polygon of a surface into as many quadrilaterals as it has corners, and smooths the surface. The new
-/// points are the moved vertices, then one point per edge, then one per face. The boundary becomes a cubic B-spline.
+/// The new points are the moved vertices, then one point per edge, then one point per face. The boundary becomes a
+/// cubic B-spline.
 ///
 /// # References
 /// Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes (1978).
@@ -30,7 +29,6 @@ pub fn subdivide(points: &[DVec3], faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<[u32;
     let middle = |face: &Vec<u32>| face.iter().map(|&i| point(i)).sum::<DVec3>() / face.len() as f64;
     let face_points: Vec<DVec3> = faces.iter().map(middle).collect();
 
-    // Number the edges in the order of the faces, and gather the neighbourhood of each vertex.
     let mut numbers = HashMap::new();
     let mut edges: Vec<Edge> = Vec::new();
     let mut around = vec![Around::default(); points.len()];
@@ -59,7 +57,7 @@ pub fn subdivide(points: &[DVec3], faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<[u32;
         }
     }
 
-    // Compute the new points. An inner vertex has as many neighbours as faces.
+    // An inner vertex has as many neighbours as faces.
     let vertex_point = |(p, a): (&DVec3, &Around)| {
         if a.boundary {
             return *p * 0.75 + a.boundary_neighbours * 0.125;
@@ -75,7 +73,6 @@ pub fn subdivide(points: &[DVec3], faces: &[Vec<u32>]) -> (Vec<DVec3>, Vec<[u32;
     new_points.extend(edges.iter().map(edge_point));
     new_points.extend(&face_points);
 
-    // Make one quadrilateral per corner: the corner, the points of its two edges and the point of the face.
     let first_face = points.len() + edges.len();
     let mut quads = Vec::new();
     for (number, face) in faces.iter().enumerate() {

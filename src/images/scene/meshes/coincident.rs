@@ -1,5 +1,4 @@
-//! Coincident surfaces, as in models from drawing programs: a ray hits several triangles at the same or nearly the same
-//! `t`. An exact triangle test must order these hits; a test that rounds may see a tie.
+//! Meshes with coincident surfaces, which rays hit at the same or nearly the same `t`.
 
 use glam::Vec3;
 
@@ -7,9 +6,8 @@ use super::plane::cube;
 use super::{flat, net, noise};
 use crate::scene::Model;
 
-/// Two cities on the square with corners (+-1, 0, +-1), 7,426 triangles. The ground of one city has 32 x 32 cells, the
-/// ground of the other 31 x 31. Each city has 144 houses. The bottom of each house lies in the plane of the ground, and
-/// houses of the two cities overlap.
+/// Two cities on one square, 7,426 triangles. The bottoms of all houses lie in the plane of the ground. Houses of the
+/// two cities overlap.
 pub fn two_cities() -> Model {
     const BLOCKS: i32 = 12;
     let city = |cells: u32, salt: u32, shift: f32| {
@@ -25,15 +23,15 @@ pub fn two_cities() -> Model {
     joined(city(32, 1, 0.0).chain(city(31, 2, 0.03)))
 }
 
-/// 10 x 10 x 10 closed cubes side by side, 12,000 triangles. Neighbouring cubes have coincident sides that face in
-/// opposite directions.
+/// 1000 cubes side by side, 12,000 triangles. Neighbouring cubes have coincident sides that face in opposite
+/// directions.
 pub fn shared_faces() -> Model {
     let cube = |i: u32| boxed(Vec3::new((i % 10) as f32, (i / 10 % 10) as f32, (i / 100) as f32), Vec3::splat(0.5));
     joined((0..1000).map(cube))
 }
 
-/// A floor of 40 x 40 slabs side by side, 19,202 triangles. All top sides lie in one plane. All bottom sides lie in the
-/// plane of a ground of two triangles.
+/// A floor of 1600 slabs, 19,202 triangles. All top sides lie in one plane. All bottom sides lie in the plane of the
+/// ground.
 pub fn tiled_floor() -> Model {
     const SIDE: u32 = 40;
     let (half, thick) = (1.0 / SIDE as f32, 0.01);
@@ -44,7 +42,7 @@ pub fn tiled_floor() -> Model {
     joined(std::iter::once(ground(1)).chain((0..SIDE * SIDE).map(slab)))
 }
 
-/// A disc of radius 1 in the plane z = 0: `segments` triangles that share the origin as a corner.
+/// A disc of radius 1 in the plane z = 0. All triangles have the origin as a corner.
 pub fn fan(segments: u32) -> Model {
     let rim = (0..segments).map(|i| {
         let (sine, cosine) = libm::sincos(f64::from(i) * std::f64::consts::TAU / f64::from(segments));
@@ -71,8 +69,7 @@ pub fn near_duplicates() -> Model {
     }))
 }
 
-/// 283 cubes around the origin, each a fiftieth larger than the previous one, 3,396 triangles. A ray may hit all cubes,
-/// and no plane separates any two of them.
+/// 283 nested cubes, 3,396 triangles. A ray may hit all cubes, and no plane separates two cubes.
 pub fn growing_shells() -> Model {
     let sides = std::iter::successors(Some(1.0_f32), |side| Some(side * 1.02));
     joined(sides.take(283).map(|side| boxed(Vec3::ZERO, Vec3::splat(side))))
@@ -90,7 +87,6 @@ fn ground(cells: u32) -> Model {
     flat(corners.collect(), net(cells, cells, quad))
 }
 
-/// The closed box around `middle` with the half extents `half`.
 fn boxed(middle: Vec3, half: Vec3) -> Model {
     let unit = cube();
     flat(unit.positions.iter().map(|&corner| middle + half * corner).collect(), unit.triangles)

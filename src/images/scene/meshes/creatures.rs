@@ -15,11 +15,11 @@ struct Design {
     /// Edge length of the surface net.
     step: f32,
     fur: [f32; 3],
-    /// Centre and radius of the eye at x > 0; the other eye is its mirror image.
+    /// Centre and radius of the eye at x > 0. The other eye is the mirror image.
     eye: (Vec3, f32),
 }
 
-/// A crouching rabbit of 1532 triangles that looks to +z. Its body and its eyes are closed surfaces.
+/// A crouching rabbit that looks to +z.
 pub fn rabbit() -> Model {
     let v = Vec3::new;
     let mut sdf = Sdf::plain();
@@ -51,7 +51,7 @@ pub fn rabbit() -> Model {
     design.model(&sdf)
 }
 
-/// A sitting fox of 1374 triangles that looks to +z, its tail to one side. Its body and its eyes are closed surfaces.
+/// A sitting fox that looks to +z.
 pub fn fox() -> Model {
     let v = Vec3::new;
     let mut sdf = Sdf::plain();
@@ -84,7 +84,7 @@ pub fn fox() -> Model {
     design.model(&sdf)
 }
 
-/// A young elephant of 1572 triangles that looks to +z. Its body and its eyes are closed surfaces.
+/// A young elephant that looks to +z.
 pub fn elephant() -> Model {
     let v = Vec3::new;
     let mut sdf = Sdf::plain();
@@ -119,7 +119,6 @@ pub fn elephant() -> Model {
 }
 
 impl Design {
-    /// The surface of `sdf` and two eyes, with exactly `triangles` triangles, scaled to fill `bounds` exactly.
     fn model(&self, sdf: &Sdf) -> Model {
         let bounds = Aabb { min: Vec3::new(-3.6, -0.5, -5.0), max: Vec3::new(3.6, 8.0, 6.0) };
         let mut model = sdf.surface(bounds, self.step, 6);

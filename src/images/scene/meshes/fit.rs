@@ -5,8 +5,7 @@ use glam::DVec3;
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// Scales and moves `model` along each axis until its box equals `bounds` to the last bit. The vertex normals are
-/// transformed by the inverse transpose and become corner normals.
+/// The box of the result equals `bounds` to the last bit. The vertex normals become corner normals.
 pub fn fit(model: &mut Model, bounds: Aabb) {
     let from = Aabb::of_points(model.positions.iter().copied());
     let (low, high) = (from.min.as_dvec3(), from.max.as_dvec3());
@@ -20,7 +19,6 @@ pub fn fit(model: &mut Model, bounds: Aabb) {
     model.normal_indices = model.triangles.clone();
 }
 
-/// Maps `p` by the scale and translation that map the box from `low` to `high` onto `bounds`.
 pub fn map_box(p: DVec3, [low, high]: [DVec3; 2], bounds: Aabb) -> DVec3 {
     let share = (p - low) / (high - low);
     bounds.min.as_dvec3() * (1.0 - share) + bounds.max.as_dvec3() * share

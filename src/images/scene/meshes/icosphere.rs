@@ -1,4 +1,4 @@
-//! The icosahedron, facing outward or inward, and the sphere that results from subdividing its triangles.
+//! Icosahedra, and spheres made by subdivision of the icosahedron.
 
 use std::collections::HashMap;
 
@@ -7,9 +7,8 @@ use glam::DVec3;
 use super::{flat, smooth};
 use crate::scene::Model;
 
-/// Corners of a unit icosahedron with poles on the y axis, truncated to multiples of 1/200,000 as in the mesh files of
-/// the source report's course. The report's ray counts depend on the truncation: in the scene Infinitycandy, an
-/// icosahedron of mirrors encloses all other objects.
+/// The coordinates are truncated like the mesh files of the source report's course. The report's ray counts depend on
+/// the truncation.
 fn corners() -> Vec<DVec3> {
     const HEIGHT: f64 = 0.447215;
     let lower = [[0.7236, 0.52572], [-0.276385, 0.85064], [-0.894425, 0.0], [-0.276385, -0.85064], [0.7236, -0.52572]];
@@ -31,10 +30,10 @@ fn sides() -> Vec<[u32; 3]> {
     (0..5).flat_map(gore).collect()
 }
 
-/// The icosahedron of radius 1 with poles on the y axis: 20 triangles, facing outward.
+/// The icosahedron of radius 1 with poles on the y axis, facing outward.
 ///
-/// The mesh stores one normal per triangle, like the course's file. A normal computed from the rounded corners in world
-/// space would differ slightly: after eight reflections, one or two more rays would hit an edge.
+/// The mesh stores one normal per triangle. Normals computed in world space would differ slightly, and change the ray
+/// counts of the source report.
 pub fn icosahedron() -> Model {
     let points = corners();
     let normal = |triangle: &[u32; 3]| {
@@ -49,7 +48,6 @@ pub fn icosahedron() -> Model {
     }
 }
 
-/// The [`icosahedron`], facing inward.
 pub fn inside_out_icosahedron() -> Model {
     let mut model = icosahedron();
     model.triangles.iter_mut().for_each(|t| t.swap(1, 2));
@@ -57,10 +55,10 @@ pub fn inside_out_icosahedron() -> Model {
     model
 }
 
-/// A closed, smooth sphere of radius 1: `20 * steps^2` triangles, `10 * steps^2 + 2` vertices.
+/// A smooth sphere of radius 1 with `20 * steps^2` triangles and `10 * steps^2 + 2` vertices.
 ///
-/// Each side of the icosahedron is divided evenly, with `steps` steps along each edge; then all points are projected
-/// onto the sphere. Projection after each halving would not give the silhouette of the source report's sphere.
+/// Each row of points divides a straight line evenly, and is then projected onto the sphere. Projection after each
+/// halving would give another silhouette than the source report's sphere.
 ///
 /// # Panics
 /// If `steps` is 0 or above 4096.
@@ -79,7 +77,7 @@ struct Net {
 }
 
 impl Net {
-    /// Adds the points between `first` and `last`, projected onto the sphere. Returns the whole row, ends included.
+    /// Returns the whole row, including the ends.
     fn row(&mut self, first: u32, last: u32, steps: u32) -> Vec<u32> {
         let (from, to) = (self.points[first as usize], self.points[last as usize]);
         let between = 1..steps.max(1);
@@ -89,7 +87,6 @@ impl Net {
         row
     }
 
-    /// The points along an edge, from `first` to `last`. The two triangles at the edge share them.
     fn edge(&mut self, first: u32, last: u32) -> Vec<u32> {
         let key = (first.min(last), first.max(last));
         if !self.rows.contains_key(&key) {

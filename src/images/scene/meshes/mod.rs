@@ -1,4 +1,4 @@
-//! Mesh generators. Their meshes have the same bits on every machine.
+//! Mesh generators. The meshes have the same bits on every machine.
 
 mod catmull_clark;
 mod coincident;
@@ -30,13 +30,11 @@ pub use teapot::teapot;
 pub use terrain::Terrain;
 pub use turned::uv_sphere;
 
-/// A mesh generator and its name in scene files.
 pub struct Generator {
     pub name: &'static str,
     pub make: fn() -> Model,
 }
 
-/// All generators that a scene file can name.
 pub const GENERATORS: &[Generator] = &[
     Generator { name: "cube", make: plane::cube },
     Generator { name: "plane_y", make: plane::plane_y },
@@ -61,12 +59,10 @@ pub const GENERATORS: &[Generator] = &[
     Generator { name: "growing_shells", make: coincident::growing_shells },
 ];
 
-/// The mesh called `name`; `None` if there is no such generator.
 pub fn by_name(name: &str) -> Option<Model> {
     GENERATORS.iter().find(|g| g.name == name).map(|g| (g.make)())
 }
 
-/// A smooth model. Its normals are computed as in the mesh files of the source report's course.
 fn smooth(points: Vec<DVec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model {
         normals: normals::by_angle_quantised(&points, &triangles),
@@ -81,13 +77,12 @@ fn flat(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model { positions, triangles, ..Model::default() }
 }
 
-/// The triangles of a net of quadrilaterals, row by row; `quad(row, column)` returns four corners.
+/// `quad(row, column)` returns the four corners of a quadrilateral, in order around the quadrilateral.
 fn net(rows: u32, columns: u32, quad: impl Fn(u32, u32) -> [u32; 4]) -> Vec<[u32; 3]> {
     let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
     cells.flat_map(|(row, column)| halves(quad(row, column))).collect()
 }
 
-/// The two triangles of a quadrilateral, cut from its first corner to its third.
 fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }

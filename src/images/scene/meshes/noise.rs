@@ -1,8 +1,8 @@
-//! Stateless noise: functions of position with the same values on every machine.
+//! Noise as a function of position, with the same values on every machine.
 
 use glam::{IVec3, Vec3};
 
-/// A pseudo-random number in [0, 1) for a cell, with 24 bits.
+/// A pseudo-random number in [0, 1) for a grid cell.
 pub fn cell(x: i32, y: i32, z: i32, salt: u32) -> f32 {
     let mut h = salt.wrapping_mul(0x9E37_79B9);
     for v in [x, y, z] {
@@ -25,7 +25,8 @@ pub fn smooth(p: Vec3, salt: u32) -> f32 {
     2.0 * (plane(z) * (1.0 - w.z) + plane(z + 1) * w.z) - 1.0
 }
 
-/// Distances from `p` to the nearest and second nearest random point; each unit cell has one point (Worley 1996).
+/// Distances from `p` to the nearest and the second nearest random point (Worley 1996). Each unit cell contains one
+/// random point.
 pub fn pebbles(p: Vec3, salt: u32) -> (f32, f32) {
     let base = p.floor().as_ivec3();
     let (mut first, mut second) = (f32::MAX, f32::MAX);

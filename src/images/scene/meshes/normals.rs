@@ -2,13 +2,11 @@
 
 use glam::{DVec3, Vec3};
 
-/// Steps per unit. The program that wrote the mesh files of the source report stored normals as 16-bit integers.
+/// The normals in the source report's mesh files are multiples of 1/32767.
 const STEPS: f64 = 32767.0;
 
-/// One normal per vertex, as in the mesh files of the source report's course: the mean of the triangle normals,
-/// weighted by the angles at the vertex, truncated to multiples of 1/32767 and rounded to six decimals. Triangles
-/// without area have no weight. The normals in the course's teapot file are such multiples. Mirror rays depend on the
-/// normals: with exact normals, ray counts differ from the report's by up to 140.
+/// One normal per vertex: the mean of the triangle normals, weighted by angle and rounded. With exact normals, the
+/// numbers of mirror rays differ from the source report.
 pub(super) fn by_angle_quantised(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut sums = vec![DVec3::ZERO; points.len()];
     for triangle in triangles {
@@ -26,7 +24,6 @@ pub(super) fn by_angle_quantised(points: &[DVec3], triangles: &[[u32; 3]]) -> Ve
     sums.into_iter().map(written).collect()
 }
 
-/// One unit normal per vertex: the mean of the triangle normals, weighted by area; `Vec3::Y` if the sum is zero.
 pub(super) fn by_area(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut normals = vec![Vec3::ZERO; positions.len()];
     for triangle in triangles {

@@ -6,14 +6,12 @@ use super::sdf::{Frame, cosine, sine};
 use super::{net, normals};
 use crate::scene::{Material, Model};
 
-/// The shading of a patch.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Finish {
     Flat,
     Smooth,
 }
 
-/// A model to which patches are added, and the material of the next patch.
 #[derive(Default)]
 pub struct Patches {
     pub model: Model,
@@ -21,7 +19,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// Sets the material of all patches that are added later. Materials with the same name are the same material.
+    /// Sets the material of the patches that are added next. The name identifies a material.
     pub fn of(&mut self, material: &Material) {
         let known = self.model.materials.iter().position(|m| m.name == material.name);
         self.material = known.unwrap_or(self.model.materials.len()) as u32;
@@ -30,8 +28,8 @@ impl Patches {
         }
     }
 
-    /// Adds a net of `columns` x `rows` quads, two triangles each, over the points `at(column, row)`. Seen from the
-    /// front, columns run to the right and rows upwards. If `round`, the last column is joined to the first.
+    /// Seen from the front, columns run to the right and rows upwards. `round` joins the last column to the first
+    /// column.
     pub fn patch(
         &mut self,
         [columns, rows]: [usize; 2],
@@ -60,12 +58,12 @@ impl Patches {
         model.material_of.resize(model.triangles.len(), self.material);
     }
 
-    /// Adds a flat quad; its corners run counter-clockwise if seen from the front.
+    /// The corners run counter-clockwise if seen from the front.
     pub fn quad(&mut self, [a, b, c, d]: [Vec3; 4]) {
         self.patch([1, 1], false, Finish::Flat, |column, row| [[a, b], [d, c]][row][column]);
     }
 
-    /// Adds a box between the corners `low` and `high`, in the coordinates of `frame`.
+    /// The corners `low` and `high` are in the coordinates of `frame`.
     pub fn block(&mut self, frame: &Frame, low: [f32; 3], high: [f32; 3]) {
         let at = |corner: usize| {
             let [x, y, z] = std::array::from_fn(|i| if corner >> i & 1 == 1 { high[i] } else { low[i] });
@@ -76,7 +74,7 @@ impl Patches {
         }
     }
 
-    /// Adds a surface of revolution about the vertical through `foot`. `profile` has (radius, height), bottom up.
+    /// `profile` has points (radius, height) from the bottom up.
     pub fn lathe(&mut self, foot: Vec3, profile: &[[f32; 2]], sides: usize) {
         self.patch([sides, profile.len() - 1], true, Finish::Smooth, |column, row| {
             let [radius, height] = profile[row];
@@ -85,7 +83,7 @@ impl Patches {
         });
     }
 
-    /// Adds a straight moulding along the right axis of `frame`. `profile` has (height, depth) from the bottom up.
+    /// `profile` has points (height, depth) from the bottom up.
     pub fn moulding(&mut self, frame: &Frame, [from, to]: [f32; 2], profile: &[[f32; 2]]) {
         for (&[y0, z0], &[y1, z1]) in profile.iter().zip(&profile[1..]) {
             self.quad([frame.at(from, y0, z0), frame.at(to, y0, z0), frame.at(to, y1, z1), frame.at(from, y1, z1)]);

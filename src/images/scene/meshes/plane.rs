@@ -5,27 +5,23 @@ use glam::Vec3;
 use super::{flat, halves};
 use crate::scene::{Material, Model};
 
-/// The square with corners (+-1, 0, +-1), facing up: 2 triangles.
 pub fn plane_y() -> Model {
     let corner = |x, z| Vec3::new(x, 0.0, z);
     let corners = vec![corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)];
     flat(corners, halves([0, 1, 2, 3]).to_vec())
 }
 
-/// The corners of the cube. Bits 0, 1 and 2 of a corner's number are the signs of x, y and z; a set bit means +1.
 fn cube_corners() -> Vec<Vec3> {
     let sign = |i: u32, bit: u32| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
     (0..8).map(|i| Vec3::new(sign(i, 0), sign(i, 1), sign(i, 2))).collect()
 }
 
-/// The closed cube with corners (+-1, +-1, +-1), facing outward: 12 triangles.
 pub fn cube() -> Model {
     let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     flat(cube_corners(), sides.into_iter().flat_map(halves).collect())
 }
 
-/// The cube without its side z = 1, facing inward: 10 triangles with the materials `floor`, `ceiling`, `back`, `right`
-/// and `left`.
+/// The cube without its side z = 1, facing inward.
 pub fn cornellbox() -> Model {
     let sides = [
         ("floor", [1, 0, 4, 5]),

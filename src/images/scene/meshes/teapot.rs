@@ -13,16 +13,12 @@ const PATCHES: &str = include_str!("teapot_patches.txt");
 pub(super) const BOUNDS: Aabb =
     Aabb { min: Vec3::new(-23.096241, -9.328575, -15.123246), max: Vec3::new(26.321558, 15.076026, 15.098365) };
 
-/// Squares along each side of a patch, before subdivision.
 const STEPS: usize = 4;
 
-/// The smooth teapot of the report: 4032 triangles and 2082 vertices; y is up and the spout points to +x.
+/// The smooth teapot of the source report, with y up and the spout towards +x.
 ///
-/// Newell's 32 patches are evaluated on a grid of 4 x 4 squares each and welded into four shells (body with rim and
-/// bottom, handle, spout, lid). One Catmull-Clark step gives 2016 quadrilaterals. Each quadrilateral is cut along its
-/// longer diagonal. All vertices agree with the mesh file of the report's course to the last digit in the file.
-///
-/// One control point differs from the published data: see `PUBLISHED`.
+/// Newell's 32 patches are evaluated on grids and welded into four shells. Each quadrilateral is cut along the longer
+/// diagonal, as in the mesh file of the report's course.
 pub fn teapot() -> Model {
     let (points, faces) = welded_patches();
     let (points, quads) = catmull_clark::subdivide(&points, &faces);
@@ -32,10 +28,10 @@ pub fn teapot() -> Model {
 }
 
 /// A control point on the rim: its number (from 0), its published x, and its x here. The report's mesh swaps two digits
-/// of x, which makes a small dent in the rim.
+/// of x.
 const PUBLISHED: (usize, f64, f64) = (16, -0.784, -0.874);
 
-/// Patches and points of the data file. A patch lists the numbers of its points, counted from 1.
+/// A patch lists the numbers of its points, counted from 1.
 fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     let (mut patches, mut points) = (Vec::new(), Vec::new());
     for line in PATCHES.lines().filter(|l| !l.starts_with(['#', 'p'])) {
@@ -48,8 +44,7 @@ fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     (patches, points)
 }
 
-/// Evaluates all patches and welds their grids into one surface per shell. At a pole, one side of a patch is a single
-/// point, so the faces there are triangles.
+/// At a pole, one side of a patch is a single point, so the faces are triangles.
 fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     let (patches, mut controls) = published();
     let (number, published, used) = PUBLISHED;
@@ -64,7 +59,7 @@ fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
         for row in 0..=STEPS {
             for column in 0..=STEPS {
                 let p = evaluate(&patch.map(|i| controls[i - 1]), row, column);
-                // Neighbouring patches compute shared points with different rounding errors: compare rounded points.
+                // Neighbouring patches compute shared points with different rounding errors.
                 let key = (shell(number), (p * 1e6).round().as_i64vec3());
                 let vertex = *known.entry(key).or_insert(points.len() as u32);
                 if vertex as usize == points.len() {
@@ -82,7 +77,7 @@ fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     (points, faces)
 }
 
-/// The shell of a patch; patches are numbered from 0.
+/// Patches are numbered from 0. The shells are body, handle, spout and lid.
 fn shell(patch: usize) -> usize {
     match patch {
         0..12 | 28.. => 0,
@@ -102,7 +97,6 @@ fn evaluate(controls: &[DVec3; 16], row: usize, column: usize) -> DVec3 {
     (0..16).map(|i| controls[i] * (down[i / 4] * across[i % 4])).sum()
 }
 
-/// Rotates from z up to y up, and maps the points to the box of the report's mesh: the scale is 7.7634375 on all axes.
 fn into_bounds(points: &[DVec3]) -> Vec<DVec3> {
     let turned: Vec<DVec3> = points.iter().map(|p| DVec3::new(p.x, p.z, -p.y)).collect();
     let low = turned.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -135,7 +129,7 @@ mod tests {
         }
     }
 
-    /// The mesh file of the report's course may not be distributed, so this test runs only if the file exists.
+    /// The mesh file may not be distributed, so this test runs only if the file exists.
     #[test]
     fn vertices_triangles_and_normals_are_those_of_the_report() {
         let folder = std::env::var_os("SAHARA_DATA").unwrap_or_default();
@@ -146,7 +140,6 @@ mod tests {
         }
         let (ours, theirs) = (teapot(), crate::scene::load(&path).unwrap());
 
-        // Match each vertex with the nearest vertex of the file.
         let gap = |p: &Vec3, i: u32| p.distance(theirs.positions[i as usize]);
         let all = || 0..theirs.positions.len() as u32;
         let nearest_of = |p: &Vec3| all().min_by(|&i, &j| gap(p, i).total_cmp(&gap(p, j))).unwrap();
@@ -155,7 +148,6 @@ mod tests {
         assert!(worst < 1e-5, "a vertex is {worst} off");
         assert_eq!(nearest.iter().copied().collect::<HashSet<u32>>(), all().collect());
 
-        // Compare the sets of triangles and the normals of their corners.
         let from_least = |[a, b, c]: [u32; 3]| [[a, b, c], [b, c, a], [c, a, b]].into_iter().min();
         let matched: HashSet<_> = ours.triangles.iter().map(|t| from_least(t.map(|i| nearest[i as usize]))).collect();
         assert_eq!(matched, theirs.triangles.iter().map(|&t| from_least(t)).collect());

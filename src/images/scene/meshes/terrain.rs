@@ -1,4 +1,4 @@
-//! Ground of any number of triangles: a large scene without a large file.
+//! Generated ground with any number of triangles.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -7,15 +7,14 @@ use serde::Deserialize;
 use super::{flat, halves, noise};
 use crate::scene::Model;
 
-/// Height of the widest hills. The hills of each further octave are half as wide and half as high.
+/// Height of the widest hills. The hills of each further octave are half as high and half as wide.
 const HEIGHT: f32 = 0.2;
 
 /// Number of hills of the first octave along one side.
 const HILLS: f32 = 4.0;
 
-/// Ground that faces up, in rows of square cells over the square from -1 to 1 in x and z. The rows start at z = -1; the
-/// last row may be incomplete or missing. With the same `seed`, more triangles show the same hills in more detail:
-/// smaller hills are added if they are at least two cells wide.
+/// Ground over the square from -1 to 1 in x and z. The last row of cells may be incomplete. A larger number of
+/// triangles adds smaller hills to the hills of `seed`.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Terrain {
@@ -30,14 +29,14 @@ fn one() -> u32 {
 }
 
 impl Terrain {
-    /// The maximum number of triangles; such a mesh takes some gigabytes.
+    /// A mesh of this size takes some gigabytes.
     pub const MOST: usize = 1 << 27;
 
     pub fn model(self) -> Model {
         let cells = self.triangles.div_ceil(2);
         let columns = cells.isqrt() + usize::from(cells.isqrt() * cells.isqrt() < cells);
         let rows = cells.div_ceil(columns);
-        // Leave out hills narrower than two cells: the vertices would sample them too coarsely.
+        // Vertices would sample hills narrower than two cells too coarsely.
         let octaves = (0..).take_while(|&k| HILLS * (1 << k) as f32 <= columns as f32 / 2.0).count().max(1) as u32;
         let across = columns + 1;
         let vertex = |i: usize| {
@@ -80,7 +79,6 @@ mod tests {
             let model = terrain(count, 1);
             let mesh = Mesh::new(model.positions, model.triangles).unwrap();
             assert!(mesh.len() == count && mesh.degenerate().is_empty(), "{count}");
-            // Seen from above, each triangle has the area of half a cell, and its front is on top.
             let above = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).y / 2.0;
             let areas: Vec<f32> = (0..count as u32).map(|i| above(mesh.corners(i))).collect();
             let side = ((count as f32 / 2.0).ceil().sqrt()).ceil();

@@ -1,4 +1,4 @@
-//! Checks each mesh against known facts.
+//! Checks each mesh against known properties.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,8 +8,7 @@ use super::*;
 use crate::geometry::{Aabb, Mesh};
 use crate::scene::hash::hexadecimal;
 
-/// The numbers of edges with one triangle and of edges with more than two triangles. Degenerate triangles do not count,
-/// and vertices at the same point are merged.
+/// Counts edges with one triangle and edges with more than two triangles. Vertices at the same point are merged.
 fn loose_and_crowded_edges(mesh: &Mesh) -> (usize, usize) {
     let mut edges: HashMap<_, u32> = HashMap::new();
     for triangle in mesh.solid() {
@@ -22,12 +21,10 @@ fn loose_and_crowded_edges(mesh: &Mesh) -> (usize, usize) {
     (count(|n| n == 1), count(|n| n > 2))
 }
 
-/// The number of connected pieces of the mesh.
 fn pieces(model: &Model) -> usize {
     sdf::pieces(model.positions.len(), &model.triangles).into_iter().collect::<HashSet<_>>().len()
 }
 
-/// A hash of vertices and indices: the first 16 hexadecimal digits of a SHA-256.
 fn fingerprint(model: &Model) -> String {
     let mut hasher = Sha256::new();
     model.positions.iter().flat_map(|p| p.to_array()).for_each(|x| hasher.update(x.to_bits().to_le_bytes()));
@@ -41,7 +38,7 @@ struct Known {
     triangles: usize,
     degenerate: usize,
     pieces: usize,
-    /// The numbers of edges with one triangle and with more than two.
+    /// The result of [`loose_and_crowded_edges`].
     edges: (usize, usize),
     bounds: Aabb,
     fingerprint: &'static str,
@@ -78,12 +75,11 @@ const KNOWN: &[Known] = &[
     Known { name: "growing_shells", vertices: 2264, triangles: 3396, degenerate: 0, pieces: 283, edges: (0, 0), bounds: bounds([-266.223_36, 266.223_36], [-266.223_36, 266.223_36], [-266.223_36, 266.223_36]), fingerprint: "1eb57e4815e770ed" },
 ];
 
-/// Checks that normals have unit length and point to the front of the triangles.
 fn assert_normals(name: &str, model: &Model) {
     assert!(model.normal_indices.is_empty() || model.normal_indices.len() == model.triangles.len(), "{name}");
-    // Some generators truncate normals to multiples of 1/32767, which makes them slightly shorter than 1.
+    // Some generators truncate normals to multiples of 1/32767, so the lengths may be slightly below 1.
     assert!(model.normals.iter().all(|n| (0.9999..1.000_001).contains(&n.length())), "{name}");
-    // In meshes made from signed distance fields, a vertex normal may point behind a triangle at a sharp bend.
+    // In meshes of signed distance functions, a vertex normal may point behind a triangle at a sharp bend.
     let is_coarse = ["rabbit", "fox", "elephant", "dragon", "lucy"].contains(&name);
     for (corners, normals) in model.triangles.iter().zip(&model.normal_indices) {
         let [a, b, c] = corners.map(|i| model.positions[i as usize]);

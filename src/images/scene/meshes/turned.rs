@@ -1,4 +1,4 @@
-//! Surfaces of revolution: the torus, and the sphere of meridians and parallels.
+//! Surfaces of revolution: a torus, and a sphere of meridians and parallels.
 
 use glam::DVec3;
 
@@ -9,8 +9,6 @@ const SEGMENTS: u32 = 48;
 const SIDES: u32 = 24;
 const TUBE: f64 = 0.37;
 
-/// A closed, smooth torus about the y axis: 48 segments around the ring of radius 1, 24 sides around the tube of radius
-/// 0.37; 1,152 vertices, 2,304 triangles.
 pub fn torus() -> Model {
     let point = |i: u32| {
         let (cosine, sine) = on_circle(i / SIDES, SEGMENTS);
@@ -23,9 +21,8 @@ pub fn torus() -> Model {
     smooth((0..SEGMENTS * SIDES).map(point).collect(), net(SEGMENTS, SIDES, quad))
 }
 
-/// A smooth sphere of radius 1 with poles on the y axis: `segments * (bands + 1)` vertices, `2 * segments * bands`
-/// triangles. Each pole consists of `segments` vertices at one point, so `2 * segments` of the triangles have no area.
-/// The sphere in the source report's course has the same poles.
+/// Each pole consists of `segments` vertices at one point, so `2 * segments` triangles have no area. The sphere in the
+/// source report's course has such poles.
 ///
 /// # Panics
 /// If `segments` is below 3 or `bands` is below 2.
@@ -41,7 +38,7 @@ pub fn uv_sphere(segments: u32, bands: u32) -> Model {
     smooth((0..segments * (bands + 1)).map(point).collect(), net(bands, segments, quad))
 }
 
-/// Cosine and sine of the fraction `step / steps` of a full turn, exact at multiples of a quarter turn.
+/// Cosine and sine of a fraction of a full turn, exact at multiples of a quarter turn.
 fn on_circle(step: u32, steps: u32) -> (f64, f64) {
     if (4 * step).is_multiple_of(steps) {
         return [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][(4 * step / steps % 4) as usize];

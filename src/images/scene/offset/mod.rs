@@ -1,5 +1,4 @@
-//! Moves the origins of secondary rays off the surface: far enough that the ray does not hit this surface again, but
-//! not so far that it misses another surface.
+//! Moves the origins of secondary rays off the surface.
 
 mod surface_point;
 
@@ -9,36 +8,30 @@ pub use surface_point::{SurfacePoint, barycentrics};
 
 use crate::geometry::Ray;
 
-/// The offset of the origins of secondary rays.
-///
-/// A hit point is rounded, so it lies slightly in front of or behind the surface. About half of the rays that start at
-/// the rounded point hit the same surface again (acne). With too large an offset, rays start behind another surface
-/// that they should hit (leak).
+/// A rounded hit point may lie behind the surface, so the ray hits the surface again (acne). With too large an offset,
+/// the ray misses a nearby surface (leak).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Offset {
-    /// Moves every origin, including the eye, by this distance along the ray direction. The source report's course uses
-    /// 0.01. A grazing ray stays near its surface and may hit it again.
+    /// Moves every origin, including the eye, by this distance along the ray direction. A grazing ray may hit its
+    /// surface again.
     Direction(f32),
     /// Moves the origin along the normal by the error bound of the point. The origins of camera rays do not move.
     ///
-    /// For a point from [`SurfacePoint::on_triangle`], at any scale and position, the origin lies on the side of the
-    /// triangle's plane to which the ray leaves, so the ray does not hit the triangle again. The origin moves by at
-    /// most about 12 units in the last place of the largest corner coordinate. The ray misses surfaces within this
+    /// For a point from [`SurfacePoint::on_triangle`], the ray does not hit the triangle again. The origin moves by at
+    /// most about 12 units in the last place of the largest corner coordinate. The ray may miss surfaces within this
     /// distance.
     ///
     /// # References
-    /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. Two changes handle error
-    /// bounds that are 0 (a coordinate is 0 at all corners) or underflow: the origin moves by at least one float along
-    /// each axis on which the normal is not 0, and `t = 0` is excluded.
+    /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. Unlike in pbrt, the
+    /// origin moves by at least one float on each axis with a nonzero normal. The error bound may be 0 or underflow.
     ErrorBounded,
 }
 
-/// The smallest positive `f32`. It excludes `t = 0`: a hit at 0 belongs to the surface that the ray leaves.
+/// The smallest positive `f32`. A hit at `t = 0` belongs to the surface that the ray leaves.
 const T_MIN: f32 = f32::from_bits(1);
 
 impl Offset {
-    /// The ray that leaves `start` in `direction`, which may have any length above 0. The direction of the ray has unit
-    /// length.
+    /// `direction` may have any length above 0. The direction of the ray has unit length.
     pub fn leave(self, start: &SurfacePoint, direction: Vec3) -> Ray {
         match self {
             Self::Direction(distance) => moved_along(start.position, direction, distance),
@@ -55,13 +48,12 @@ impl Offset {
     }
 }
 
-/// The ray of [`Offset::Direction`], computed in `f32`. The parameter `t` of the ray counts from the moved origin.
 fn moved_along(origin: Vec3, direction: Vec3, distance: f32) -> Ray {
     let direction = direction.normalize();
     Ray::new(origin + direction * distance, direction)
 }
 
-/// Normalises in `f64`, in which squares of `f32` values neither overflow nor underflow.
+/// Squares of `f32` values neither overflow nor underflow in `f64`.
 fn unit(direction: Vec3) -> Vec3 {
     direction.as_dvec3().normalize_or_zero().as_vec3()
 }

@@ -8,12 +8,10 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Scene, Surface};
 
-/// The number of rays that a thread traces at once; the hits do not depend on this number.
+/// Rays that a thread traces at once. The hits do not depend on this number.
 const CHUNK: usize = 4096;
 
-/// A ray, its hit and the surface at the hit.
 pub struct SurfaceHit {
-    /// The index of the ray in the batch.
     pub number: usize,
     pub ray: Ray,
     pub hit: Hit,
@@ -43,7 +41,7 @@ pub fn mirror(source: &mut Source) -> Vec<Ray> {
     primary_hits(source).iter().map(|hit| source.scene.mirror_ray(&hit.ray, &hit.surface)).collect()
 }
 
-/// One ray per hit, cosine-distributed about the shading normal on the side of the incoming ray.
+/// The rays are cosine-distributed about the shading normal, on the side of the incoming ray.
 pub fn diffuse(source: &mut Source) -> Vec<Ray> {
     let hits = primary_hits(source);
     let mut direction = |ray: &Ray, normal: Vec3| loop {

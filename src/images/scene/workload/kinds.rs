@@ -1,7 +1,6 @@
 //! All workloads without parameters.
 //!
-//! To add a workload, write the function that makes its rays and add a line to the table below. The command line and
-//! `sahara list` use this table.
+//! To add a workload, write a function that makes the rays, and add a line to the table.
 
 use std::str::FromStr;
 
@@ -25,7 +24,6 @@ macro_rules! kinds {
         }
 
         impl WorkloadKind {
-            /// The query of the rays.
             pub fn query(self) -> Query {
                 match self {
                     $(Self::$kind => Query::$query),*
@@ -42,26 +40,25 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// Rays from the eye through the middle of each pixel, in tiles of four by four pixels within blocks of 32 by 32
-    /// pixels. Secondary rays have the order of their primary rays.
+    /// Rays from the eye through the middle of each pixel. Secondary rays have the order of their primary rays.
     Primary, "primary", Closest, primary::centres;
-    /// Rays from the eye through the top left corner of each pixel. On regular meshes, they hit edges and vertices.
+    /// Rays from the eye through the corners of pixels. On regular meshes, these rays hit edges and vertices.
     Corners, "corners", Closest, primary::corners;
-    /// Rays from each primary hit to each light, any hit. The rays of one light are consecutive.
+    /// Any-hit rays from each primary hit to each light. The rays of one light are consecutive.
     Shadow, "shadow", Any, bounces::shadow;
     /// Rays from each primary hit, on any material, in the direction reflected about the shading normal.
     Mirror, "mirror", Closest, bounces::mirror;
     /// Rays from each primary hit in a random direction, cosine-distributed about the shading normal.
     Diffuse, "diffuse", Closest, bounces::diffuse;
-    /// Ambient occlusion: like [`WorkloadKind::Diffuse`], but any hit, with a tenth of the box's diagonal as `t_max`.
+    /// Like [`WorkloadKind::Diffuse`], but any hit within a tenth of the diagonal of the scene's box.
     Ambient, "ambient", Any, bounces::ambient;
     /// Lines through two random points of the sphere around the scene's box.
     Random, "random", Closest, lines::random;
-    /// Rays in both directions of each axis, on a lattice. Every fourth row and column lies at a vertex coordinate.
+    /// Rays in both directions of each axis. Every fourth row and column lies at a vertex coordinate.
     Axis, "axis", Closest, lines::axis;
-    /// The closest-hit rays of the whole picture: the primary ray of each pixel, then its mirror rays.
+    /// The primary ray of each pixel, then the mirror rays of the pixel.
     Image, "image", Closest, picture::closest;
-    /// The any-hit rays of the whole picture: shadow rays in the order of [`WorkloadKind::Image`].
+    /// The shadow rays of the picture, in the order of [`WorkloadKind::Image`].
     ImageShadow, "image-shadow", Any, picture::shadow;
 }
 

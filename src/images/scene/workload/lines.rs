@@ -6,7 +6,6 @@ use super::source::Source;
 use crate::geometry::Ray;
 use crate::scene::Scene;
 
-/// One ray per pixel, from one random point towards another, both on the sphere around the scene's box.
 pub fn random(source: &mut Source) -> Vec<Ray> {
     let Some((centre, radius)) = sphere(source.scene) else { return vec![] };
     let mut ray = || loop {
@@ -18,10 +17,8 @@ pub fn random(source: &mut Source) -> Vec<Ray> {
     (0..source.sampling.pixels()).map(|_| ray()).collect()
 }
 
-/// About one ray per pixel, parallel to an axis: a square lattice of rays for each direction of each axis.
-///
-/// Most rays pass through the middle of a lattice cell. Every fourth row and column is moved to a vertex coordinate:
-/// its rays are likely to pass through vertices, along edges and in the planes of triangles.
+/// Every fourth row and column of the lattice has a vertex coordinate. Rays there are likely to pass through vertices,
+/// along edges and in the planes of triangles.
 pub fn axis(source: &mut Source) -> Vec<Ray> {
     let scene = source.scene;
     let Some((centre, radius)) = sphere(scene) else { return vec![] };
@@ -46,7 +43,6 @@ pub fn axis(source: &mut Source) -> Vec<Ray> {
     rays
 }
 
-/// The coordinate along `axis` of row or column `i` of a lattice with `side` rows and columns.
 fn line(scene: &Scene, axis: usize, i: u32, side: u32) -> f32 {
     let positions = scene.mesh.positions();
     if i.is_multiple_of(4) {
@@ -58,7 +54,6 @@ fn line(scene: &Scene, axis: usize, i: u32, side: u32) -> f32 {
     (min + (max - min) * (f64::from(i) + 0.5) / f64::from(side)) as f32
 }
 
-/// Centre and radius of the sphere around the scene's box; `None` for an empty scene.
 fn sphere(scene: &Scene) -> Option<(DVec3, f64)> {
     let bounds = scene.mesh.bounds();
     let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());

@@ -20,22 +20,19 @@ use crate::geometry::Ray;
 pub use kinds::WorkloadKind;
 pub use source::Sampling;
 
-/// Named rays with one query. Their bits are the same on every machine. They depend on the triangle test of the
-/// structure that finds the origins of secondary rays, but on no other property of this structure.
+/// Rays with one query, with the same bits on every machine. Secondary rays depend on the triangle test of the
+/// structure that finds their origins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Workload {
     /// [`WorkloadKind::name`], or the name in a ray file.
     pub name: String,
-    /// The query of all rays.
     pub query: Query,
     pub rays: Vec<Ray>,
 }
 
 impl Workload {
-    /// Makes the rays. `accel` is built over the scene's mesh and finds the hits at which secondary rays start.
-    ///
-    /// A workload may be empty: shadow rays need a light, secondary rays need a primary hit, and random and
-    /// axis-parallel rays need a mesh with triangles.
+    /// `accel` must be built over the scene's mesh. The workload may be empty, for example without lights or primary
+    /// hits.
     pub fn new(scene: &Scene, kind: WorkloadKind, sampling: &Sampling, accel: &dyn DynAccel) -> Self {
         let mut source = Source { scene, sampling, accel, sampler: Sampler::new(kind.name(), sampling.seed) };
         let rays = kind.rays(&mut source);
@@ -51,7 +48,6 @@ impl Workload {
         self.rays.iter().flat_map(numbers).flat_map(|value| value.to_bits().to_le_bytes()).collect()
     }
 
-    /// The first 16 hexadecimal digits of the SHA-256 of [`bytes`](Self::bytes), for exports.
     pub fn hash(&self) -> String {
         hexadecimal(&Sha256::digest(self.bytes())[..8])
     }

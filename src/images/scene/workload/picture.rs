@@ -21,7 +21,7 @@ pub fn shadow(source: &mut Source) -> Vec<Ray> {
     by_pixel(rays)
 }
 
-/// Calls `visit` for every hit, level by level, with the pixel, the hit and the mirror ray if the material casts one.
+/// Calls `visit` for every hit, level by level, with the pixel, the hit and the mirror ray.
 fn walk(source: &Source, primary: Vec<Ray>, mut visit: impl FnMut(usize, &SurfaceHit, Option<Ray>)) {
     let Source { scene, accel, .. } = source;
     let mut pixels: Vec<usize> = (0..primary.len()).collect();
@@ -39,7 +39,7 @@ fn walk(source: &Source, primary: Vec<Ray>, mut visit: impl FnMut(usize, &Surfac
     }
 }
 
-/// Sorts by pixel. The sort is stable to keep the levels of a pixel in order.
+/// The sort is stable to keep the levels of a pixel in order.
 fn by_pixel(mut rays: Vec<(usize, Ray)>) -> Vec<Ray> {
     rays.sort_by_key(|&(pixel, _)| pixel);
     rays.into_iter().map(|(_, ray)| ray).collect()

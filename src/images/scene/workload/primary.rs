@@ -6,28 +6,23 @@ use super::source::Source;
 use crate::geometry::Ray;
 use crate::scene::View;
 
-/// Rays through the middle of each pixel, in tiles.
 pub fn centres(source: &mut Source) -> Vec<Ray> {
     in_tiles(&by_row(source, View::CENTRE), source.sampling.size)
 }
 
-/// Rays through the top left corner of each pixel, in tiles.
 pub fn corners(source: &mut Source) -> Vec<Ray> {
     in_tiles(&by_row(source, Vec2::ZERO), source.sampling.size)
 }
 
-/// Rays through the point `offset` of each pixel, row by row.
 pub fn by_row(source: &Source, offset: Vec2) -> Vec<Ray> {
     source.scene.primary_rays(source.sampling.size, offset, 0..source.sampling.pixels())
 }
 
-/// Sides of a tile and of a block, in pixels. Renderers distribute blocks over threads.
+/// Sides of a tile and of a block, in pixels.
 const TILE: u32 = 4;
 const BLOCK: u32 = 32;
 
-/// Reorders the pixels of a picture from rows into blocks of 32 by 32 pixels, and within a block into tiles of four by
-/// four, as in renderers. Consecutive rays are then neighbours in the picture, so structures can trace packets
-/// efficiently. Blocks and tiles at the right and lower border may be smaller.
+/// Consecutive rays become neighbours in the picture, as in renderers, so structures can trace packets efficiently.
 fn in_tiles<T: Copy>(pixels: &[T], [width, height]: [u32; 2]) -> Vec<T> {
     assert_eq!(pixels.len(), width as usize * height as usize, "a picture has all its pixels");
     let corners = |from: UVec2, to: UVec2, side: u32| {

@@ -7,24 +7,22 @@ use rand_pcg::Pcg32;
 use crate::accel::DynAccel;
 use crate::scene::Scene;
 
-/// The number of rays of a workload, and the seed of its random numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
-    /// Width and height of the picture whose primary hits are the origins of secondary rays. Its number of pixels is
-    /// also the number of random rays, and about the number of axis-parallel rays.
+    /// Width and height of the picture whose primary hits are the origins of secondary rays. The number of pixels is
+    /// also the number of random rays.
     pub size: [u32; 2],
-    /// The maximum number of rays. If a workload has more, an evenly spread subset is taken.
+    /// A larger workload is reduced to an evenly spread subset.
     pub limit: usize,
     pub seed: u64,
 }
 
 impl Sampling {
-    /// All rays of a picture of the scene's size, with seed 0.
     pub fn of(scene: &Scene) -> Self {
         Self { size: scene.size, limit: usize::MAX, seed: 0 }
     }
 
-    /// An evenly spread subset of at most `limit` rays: for checking hits, not for measuring times.
+    /// A subset of the rays is for checking hits, not for measuring times.
     pub fn some(scene: &Scene, limit: usize, seed: u64) -> Self {
         Self { limit, seed, ..Self::of(scene) }
     }
@@ -36,11 +34,9 @@ impl Sampling {
 
 pub(super) struct Source<'a> {
     pub scene: &'a Scene,
-    /// Gives the size of the picture. [`Workload::new`](super::Workload::new) applies the limit to the finished rays.
+    /// [`Workload::new`](super::Workload::new) applies the limit to the finished rays.
     pub sampling: &'a Sampling,
-    /// The structure that finds the hits at which secondary rays start.
     pub accel: &'a dyn DynAccel,
-    /// The random numbers of this workload.
     pub sampler: Sampler,
 }
 
@@ -48,7 +44,7 @@ pub(super) struct Source<'a> {
 pub(super) struct Sampler(Pcg32);
 
 impl Sampler {
-    /// The random numbers of the workload `name`. Each name has a different sequence.
+    /// Each workload has a different sequence of random numbers.
     pub fn new(name: &str, seed: u64) -> Self {
         let mixed = name.bytes().fold(seed, |mixed, byte| mixed.wrapping_mul(0x0100_0000_01b3) ^ u64::from(byte));
         Self(Pcg32::seed_from_u64(mixed))
@@ -58,7 +54,6 @@ impl Sampler {
         f64::from(self.0.next_u32()) / f64::from(1u32 << 31) - 1.0
     }
 
-    /// A uniformly distributed unit vector: a point of the unit ball by rejection sampling, normalised.
     pub fn direction(&mut self) -> DVec3 {
         loop {
             let point = DVec3::new(self.signed(), self.signed(), self.signed());

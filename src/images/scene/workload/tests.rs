@@ -9,7 +9,6 @@ use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::{Camera, Light, Material, Model, Offset, meshes};
 use crate::triangle::MollerTrumbore;
 
-/// A mirror floor and a ceiling with the eye and two lights between them.
 fn room() -> Scene {
     let square = |y: f32| [[-4.0, y, -4.0], [-4.0, y, 4.0], [4.0, y, 4.0], [4.0, y, -4.0]].map(Vec3::from_array);
     let model = Model {
@@ -72,7 +71,7 @@ fn the_number_of_secondary_rays_follows_from_hits_and_lights() {
     assert_eq!(count(WorkloadKind::Shadow), 2 * hits);
     assert_eq!([WorkloadKind::Mirror, WorkloadKind::Diffuse, WorkloadKind::Ambient].map(count), [hits; 3]);
     assert_eq!(count(WorkloadKind::Axis), 6 * 8 * 8);
-    // The floor reflects rays to the ceiling or out of the scene: no ray hits a mirror twice.
+    // Each hit on the floor adds one mirror ray. No ray hits the mirror twice.
     assert_eq!(count(WorkloadKind::Image), 24 * 16 + floor);
 }
 
@@ -101,7 +100,7 @@ fn bounces_off_a_framed_convex_mesh_hit_nothing_at_any_size_and_place() {
     for (radius, centre) in [(1.0, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 1e3), (10.0, 1e5)] {
         assert_eq!(hidden(None, radius, centre), 0, "r = {radius} at {centre}");
     }
-    // About half of the rays that start at the rounded point hit the triangle that they leave.
+    // Without an offset, many rays hit the triangle that they leave.
     assert!(hidden(Some(Offset::Direction(0.0)), 10.0, 1e5) > 300);
 }
 

@@ -21,21 +21,21 @@ pub type LogAxis = WithKeyPoints<LogCoord<f64>>;
 /// The multiples of a power of ten that label an axis, from dense to sparse.
 const FACTORS: [&[f64]; 4] = [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]];
 
-/// A horizontal logarithmic axis of this length, with as many round numbers as fit side by side.
+/// A horizontal axis, `length` pixels long.
 pub fn across(ends: [f64; 2], length: i32) -> LogAxis {
     log_axis(ends, length, |tick| width_of(&tick_text(tick)) + 20)
 }
 
-/// A vertical logarithmic axis of this length, with as many round numbers as fit above each other.
+/// A vertical axis, `length` pixels long.
 pub fn upward(ends: [f64; 2], length: i32) -> LogAxis {
     log_axis(ends, length, |_| 48)
 }
 
-/// A logarithmic axis with as many round numbers as fit; each takes `space` pixels.
+/// Labels the axis with as many round numbers as fit. Each number takes `space` pixels.
 fn log_axis([low, high]: [f64; 2], length: i32, space: impl Fn(f64) -> i32) -> LogAxis {
     let per_decade = f64::from(length) / libm::log10(high / low);
     let exponents = libm::floor(libm::log10(low)) as i32..=libm::floor(libm::log10(high)) as i32;
-    // Try `FACTORS` in every decade, from dense to sparse. Then try every second power of ten, every third, and so on.
+    // If `FACTORS` are too dense, try every second power of ten, then every third, and so on.
     let between = FACTORS.into_iter().map(|factors| (1, factors));
     let powers = (2..20).map(|step| (step, FACTORS[3]));
     let ticks = |(step, factors): (i32, &[f64])| -> Vec<f64> {
@@ -54,7 +54,8 @@ fn log_axis([low, high]: [f64; 2], length: i32, space: impl Fn(f64) -> i32) -> L
     (low..high).log_scale().with_key_points(ticks)
 }
 
-/// The range of positive `values`, at least a factor of two, then widened by `below` and `above` times its log width.
+/// The range of positive `values`, at least a factor of two. The ends of the range then move outward by the fractions
+/// `below` and `above` of its logarithmic width.
 pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f64; 2] {
     let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high), v| (v.min(low), v.max(high)));
     if low > high {
@@ -64,16 +65,15 @@ pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f
     [low / libm::pow(high / low, below), high * libm::pow(high / low, above)]
 }
 
-/// Height of the area below a horizontal axis with a title, and without one.
+/// Height of the area below a horizontal axis.
 pub const BOTTOM: i32 = 96;
 pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
 
-/// Space around axes, labels and legends.
 pub const GAP: i32 = 20;
 
 pub type Axes<'a, Y = LogAxis> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogAxis, Y>>;
 
-/// The titles and labels of two axes, and the margins above, to the left and to the right.
+/// The titles and labels of two axes, and margins in pixels.
 pub struct AxisLabels<'a, V = f64> {
     pub x_title: &'a str,
     pub y_title: &'a str,
@@ -83,7 +83,6 @@ pub struct AxisLabels<'a, V = f64> {
     pub right: i32,
 }
 
-/// Draws two axes in `area`.
 pub fn axes<'a, Y>(area: &Area<'a>, x: LogAxis, y: Y, labels: &AxisLabels<Y::ValueType>) -> DrawResult<Axes<'a, Y>>
 where
     Y: Ranged<ValueType: Debug, FormatOption = DefaultFormatting>,
@@ -102,7 +101,6 @@ where
     Ok(chart)
 }
 
-/// Draws two logarithmic axes in `area` with these titles and ends.
 pub fn log_log<'a>(
     area: &Area<'a>,
     [x_title, y_title]: [&str; 2],
@@ -111,9 +109,9 @@ pub fn log_log<'a>(
     let (width, height) = area.dim_in_pixel();
     let y = upward(y_ends, height as i32 - GAP - BOTTOM);
     let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
-    // The title of the vertical axis is rotated, so it needs only the height of a line of text.
+    // The title of the vertical axis is rotated: its width is the height of a line of text.
     let left = widest(&texts) + GAP + TEXT;
-    // A number at the end of the axis extends beyond it by half its width.
+    // The last number of the axis extends beyond the end of the axis.
     let right = 3 * GAP;
     let x = across(x_ends, width as i32 - left - GAP - right);
     axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top: GAP, left, right })
@@ -122,12 +120,11 @@ pub fn log_log<'a>(
 /// Height of a name in the legend.
 const LINE: i32 = 40;
 
-/// Height of the legend below the axes.
 pub fn legend_height(names: &[String]) -> i32 {
     if names.is_empty() { 0 } else { names.len() as i32 * LINE + GAP }
 }
 
-/// Draws the legend below the axes: names, each with a dot of its colour. Returns the remaining area.
+/// Draws the legend at the bottom of `area`. Returns the remaining area.
 pub fn legend<'a>(area: &Area<'a>, names: &[String], colours: &[Colour]) -> DrawResult<Area<'a>> {
     const DOT: i32 = 8;
     let (axes, below) = area.split_vertically(area.dim_in_pixel().1 as i32 - legend_height(names));
@@ -141,7 +138,7 @@ pub fn legend<'a>(area: &Area<'a>, names: &[String], colours: &[Colour]) -> Draw
 
 /// A round number as an axis label: `0.001`, `20`, `5,000`, `1e6`.
 pub fn tick_text(value: f64) -> String {
-    // Remove the rounding error of the product of a round number and a power of ten.
+    // Remove the rounding error of the product of a factor and a power of ten.
     let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
     match rounded {
         0.0 => "0".into(),
@@ -162,7 +159,6 @@ mod tests {
             (90.0, 6000.0, 400, &["100", "200", "500", "1,000", "2,000", "5,000"][..]),
             (140.0, 410.0, 400, &["150", "200", "300", "400"]),
             (1e-5, 0.6, 400, &["1e-5", "1e-4", "0.001", "0.01", "0.1"]),
-            // Only every third power of ten fits.
             (1.0, 1e12, 200, &["1", "1,000", "1e6", "1e9", "1e12"]),
         ] {
             let axis = upward([low, high], length);

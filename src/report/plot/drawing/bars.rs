@@ -33,7 +33,6 @@ const GROUP: i32 = 380;
 /// Space for the number at the end of the longest bar.
 const NUMBER: i32 = 124;
 
-/// The layout of a drawing of a given width.
 struct Layout {
     /// Space for labels to the left of the bars; 0 if each label stands above its bar.
     left: i32,
@@ -66,7 +65,6 @@ fn part_colours(part: usize) -> [Colour; 2] {
 impl Bars {
     fn layout(&self, width: i32) -> Layout {
         let beside = widest(&self.labels) + GAP;
-        // Place labels above the bars if labels to the left would leave less than half of the width for bars.
         let left = if beside > width / 2 { 0 } else { beside };
         let [row, bar] = if self.parts.is_empty() { [54, 30] } else { [88, 48] };
         let step = if left == 0 { row + TEXT + 2 } else { row };
@@ -78,7 +76,6 @@ impl Bars {
         Layout { left, bar, row, step, columns, column: (width - left) / columns as i32, head, group, height }
     }
 
-    /// Height of a drawing of this width.
     pub fn height(&self, width: i32) -> i32 {
         self.layout(width).height + FOOT + legend_height(&self.parts)
     }
@@ -91,11 +88,9 @@ impl Bars {
         let across: Vec<i32> = (1..layout.columns as i32).map(|i| layout.left + i * layout.column).collect();
         let down: Vec<i32> = (1..=layout.height / layout.group).map(|i| i * layout.group).collect();
         for (i, (group, cell)) in self.groups.iter().zip(area.split_by_breakpoints(across, down)).enumerate() {
-            // Only the first group of a row has labels on its left.
             let left = if i % layout.columns == 0 { layout.left } else { 0 };
             self.draw_group(whole, group, &layout, &cell, left)?;
         }
-        // Centre the title below all groups, but keep it inside the drawing.
         let half = width_of(&self.x_title) / 2;
         let middle = ((width + layout.left) / 2).min(width - half).max(half);
         text(whole, &self.x_title, (middle, layout.height + FOOT / 2), MIDDLE.light, HPos::Center)
@@ -138,7 +133,6 @@ impl Bars {
                     chart.value(row, *value, bar.reach()[1], 0)?;
                 }
                 Bar::Product(factors, product) => {
-                    // Draw the interval of the product below the bars of its factors.
                     chart.value(row, *product, bar.reach()[1], layout.bar / 2 + 10)?;
                     chart.factors(row, factors)?;
                 }
@@ -147,7 +141,7 @@ impl Bars {
         Ok(())
     }
 
-    /// The ends of the axis. They include all bars; intervals extend each end by at most the factor `margin`.
+    /// The ends of the axis include all bars. Intervals extend each end by at most the factor `margin`.
     fn ends(&self) -> [f64; 2] {
         let bars = || self.groups.iter().flat_map(|group| &group.bars);
         let reach = bars().map(Bar::reach);
@@ -159,7 +153,7 @@ impl Bars {
     }
 }
 
-/// The axes of a group. Vertical coordinates are pixels below the top of the first row.
+/// Vertical coordinates are pixels below the top of the first row.
 struct BarChart<'a, 's> {
     whole: &'a Area<'s>,
     layout: &'a Layout,
@@ -171,7 +165,6 @@ impl BarChart<'_, '_> {
         self.axes.backend_coord(&(x, y))
     }
 
-    /// Draws a bar between two values. Returns its corners.
     fn bar(&self, row: usize, [from, to]: [f64; 2], colour: Colour) -> DrawResult<[Place; 2]> {
         let (middle, half) = (self.layout.middle(row), self.layout.bar / 2);
         let corners = [self.place(from.min(to), middle - half), self.place(from.max(to), middle + half)];
@@ -179,7 +172,6 @@ impl BarChart<'_, '_> {
         Ok(corners)
     }
 
-    /// Draws the factors of a product as bars, factors above 1 to the right and factors below 1 to the left.
     fn factors(&self, row: usize, factors: &[f64]) -> DrawResult {
         let (mut up, mut down) = (1.0, 1.0);
         for (part, &factor) in factors.iter().enumerate() {
@@ -197,8 +189,7 @@ impl BarChart<'_, '_> {
         Ok(())
     }
 
-    /// Draws the interval of a value, `below` pixels below the middle of its row. Then writes the value to the right of
-    /// the interval and of the bar, which ends at `end`.
+    /// `end` is the right end of the bar. The interval is `below` pixels below the middle of the row.
     fn value(&self, row: usize, value: Estimate, end: f64, below: i32) -> DrawResult {
         let (axis, middle) = (self.axes.x_range(), self.layout.middle(row));
         let high = value.high().unwrap_or(value.estimate);
@@ -209,8 +200,7 @@ impl BarChart<'_, '_> {
         text(self.whole, &figures(value.estimate), (x + 14, y), INK.light, HPos::Left)
     }
 
-    /// Draws an interval as an error bar, with a light border that makes it visible on a bar. An end outside the axis
-    /// has no cap.
+    /// A light border makes the interval visible on a bar. An end outside the axis has no cap.
     fn whisker(&self, ends: [f64; 2], y: i32) -> DrawResult {
         let axis = self.axes.x_range();
         let stem = ends.map(|end| self.place(end.clamp(axis.start, axis.end), y));

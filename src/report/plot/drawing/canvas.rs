@@ -21,13 +21,13 @@ pub type DrawResult<T = ()> = Result<T, DrawingAreaErrorKind<io::Error>>;
 /// A point in pixels, relative to the top left corner of the drawing.
 pub type Place = (i32, i32);
 
-/// Height of a line of text, from the top of the highest letter to the bottom of the lowest.
+/// Height of a line of text.
 pub const TEXT: i32 = 32;
 
-/// The font name in an SVG. The viewer chooses a font; this program measures text with its embedded font.
+/// The viewer of the SVG chooses the font. Text is measured with the embedded font.
 const FONT: &str = "sans-serif";
 
-/// Registers the embedded font, which gives the same layout on every system. Ubuntu Light has the Ubuntu Font Licence.
+/// Registers the embedded font: layouts are equal on every system. Ubuntu Light has the Ubuntu Font Licence.
 pub fn register() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
@@ -40,7 +40,7 @@ pub fn text_style(colour: Colour) -> TextStyle<'static> {
     TextStyle { color: colour.to_backend_color(), ..(FONT, TEXT).into_font().into() }
 }
 
-/// Width of a line of text plus 6 %, because the font of the viewer may be wider.
+/// The width of a line of text plus 6 %, because the viewer's font may be wider.
 pub fn width_of(text: &str) -> i32 {
     register();
     let (width, _) = (FONT, TEXT).into_font().box_size(text).expect("the font is registered");
@@ -51,8 +51,7 @@ pub fn widest<'a>(texts: impl IntoIterator<Item = &'a String>) -> i32 {
     texts.into_iter().map(|text| width_of(text)).max().unwrap_or(0)
 }
 
-/// Draws a line of text, vertically centred at `place`. `side` selects whether its left end, middle or right end is at
-/// `place` horizontally.
+/// The text is vertically centred at `place`. `side` is the part of the text at `place`: left end, middle or right end.
 pub fn text(area: &Area, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult {
     area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
 }

@@ -45,7 +45,7 @@ impl Chart {
         area.present()
     }
 
-    /// The text of an SVG file, `width` units wide (scatter plots: 800). The view box has two pixels per unit.
+    /// An SVG file. `width` is in units of two pixels; scatter plots are always 800 units wide.
     pub fn svg(&self, width: f64) -> String {
         let mut text = String::new();
         self.draw(&SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area()).expect(DRAWN);
@@ -58,7 +58,6 @@ impl Curves {
         self.lines.iter().map(|line| format!("{} {}", line.label, line.note).trim_end().to_owned()).collect()
     }
 
-    /// Height of a drawing of this width.
     pub fn height(&self, width: i32) -> i32 {
         (4 * width / 5).min(860) + legend_height(&self.names())
     }

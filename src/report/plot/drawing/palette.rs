@@ -1,4 +1,4 @@
-//! Colours, each with a value for light mode and one for dark mode. A structure has the same colour in every figure.
+//! Colours for light mode and dark mode. A structure has the same colour in every figure.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,10 +6,9 @@ use plotters::style::RGBColor;
 
 use crate::measure::checksum;
 
-/// A colour of a drawing. Drawings contain light-mode colours; the page replaces them in dark mode.
+/// Drawings contain light-mode colours. The page replaces them in dark mode.
 pub type Colour = RGBColor;
 
-/// A named colour with its values in light and in dark mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Role {
     /// Name of the CSS custom property, without `--`.
@@ -27,8 +26,8 @@ pub const INK: Role = role("ink", [34, 38, 43], [226, 228, 231]);
 pub const MIDDLE: Role = role("middle", [100, 106, 114], [157, 164, 173]);
 pub const FAINT: Role = role("faint", [222, 225, 229], [52, 57, 64]);
 
-/// Colours of series. The first ten are chosen to be distinct for colour-blind readers (after Okabe, Ito: Color
-/// universal design, 2008). All have enough contrast for text.
+/// Colours of series. The first ten are distinct for colour-blind readers (after Okabe, Ito: Color universal design,
+/// 2008). All have enough contrast for text.
 pub const SERIES: [Role; 24] = [
     role("s0", [106, 110, 116], [160, 166, 174]),
     role("s1", [184, 74, 0], [255, 150, 84]),
@@ -56,7 +55,7 @@ pub const SERIES: [Role; 24] = [
     role("s23", [6, 90, 107], [118, 226, 248]),
 ];
 
-/// Colours of the factors of a bar: shades of one colour that no structure has, dark to pale in light mode.
+/// Colours of the factors of a bar: shades of a colour that no structure has.
 pub const PARTS: [Role; 3] = [
     role("p0", [44, 62, 84], [204, 216, 230]),
     role("p1", [98, 124, 152], [134, 154, 176]),
@@ -67,7 +66,7 @@ pub fn roles() -> impl Iterator<Item = Role> {
     [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(PARTS)
 }
 
-/// The structures with fixed colours: structure `i` has the colour `SERIES[i]`.
+/// Structure `i` has the fixed colour `SERIES[i]`.
 const STRUCTURES: [&str; 14] = [
     "brute-force",
     "median-kd",
@@ -85,14 +84,12 @@ const STRUCTURES: [&str; 14] = [
     "tinybvh",
 ];
 
-/// The light-mode colours of [`roles_of`].
 pub fn colours(labels: &[String]) -> Vec<Colour> {
     roles_of(labels).into_iter().map(|role| role.light).collect()
 }
 
-/// A colour for each label. The names in `STRUCTURES` have fixed colours. For any other label, such as a name with
-/// keys, its hash selects one of the remaining colours. A label therefore has the same colour in every chart, except
-/// if the hashes of two labels of a chart collide.
+/// The names in `STRUCTURES` have fixed colours. The hash of any other label selects one of the remaining colours. A
+/// label has the same colour in every chart unless the hashes of two labels collide.
 pub fn roles_of(labels: &[String]) -> Vec<Role> {
     let own = |label: &str| STRUCTURES.iter().position(|structure| *structure == label);
     let others = labels.iter().map(String::as_str).filter(|label| own(label).is_none());
@@ -101,8 +98,8 @@ pub fn roles_of(labels: &[String]) -> Vec<Role> {
     labels.iter().map(role).collect()
 }
 
-/// Assigns a number below `n` to each text: its hash modulo `n`, or the next free number if this one is taken. With
-/// more than `n` texts, numbers repeat. The order of the texts does not matter.
+/// Assigns a number below `n` to each text. Numbers repeat only if there are more than `n` texts. The order of the
+/// texts does not matter.
 fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a str, usize> {
     let mut given: BTreeMap<&str, usize> = BTreeMap::new();
     for text in texts.collect::<BTreeSet<_>>() {
@@ -114,7 +111,6 @@ fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a st
     given
 }
 
-/// The colour as `#RRGGBB`.
 pub fn hex(colour: Colour) -> String {
     format!("#{:02X}{:02X}{:02X}", colour.0, colour.1, colour.2)
 }

@@ -13,7 +13,6 @@ const RADIUS: i32 = 10;
 
 const ARROW: i32 = 44;
 
-/// A point with its position and colour in the drawing.
 struct Dot<'a> {
     point: &'a Point,
     place: Place,
@@ -21,13 +20,12 @@ struct Dot<'a> {
 }
 
 impl Scatter {
-    /// The names in the legend. Empty if every label equals its group: the labels then explain the colours.
+    /// The legend is empty if every label equals its group.
     fn names(&self) -> Vec<String> {
         let is_said = self.points.iter().all(|point| point.label == point.group);
         if is_said { vec![] } else { self.groups() }
     }
 
-    /// Height of a drawing of this width.
     pub fn height(&self, width: i32) -> i32 {
         width.min(880) + legend_height(&self.names())
     }
@@ -47,7 +45,6 @@ impl Scatter {
         let front = front(&dots, x.end);
         line(whole, &front, MIDDLE.light, 4)?;
         let obstacles: Vec<Corners> = dots.iter().map(Dot::corners).collect();
-        // If there are many points, label only the front: a reader could not match more labels to points.
         let is_shown = |dot: &&Dot| dots.len() <= LABELLED || dot.point.is_front;
         let labelled: Vec<&Dot> = dots.iter().filter(is_shown).collect();
         draw_labels(whole, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
@@ -77,8 +74,7 @@ impl Dot<'_> {
     }
 }
 
-/// The Pareto front as a staircase: a horizontal line from each point to the `x` of the next point, and from the last
-/// point to the `end` of the axis.
+/// The Pareto front as a staircase up to the `end` of the axis.
 fn front(dots: &[Dot], end: i32) -> Vec<Place> {
     let mut front: Vec<Place> = dots.iter().filter(|dot| dot.point.is_front).map(|dot| dot.place).collect();
     front.sort_unstable();
@@ -86,7 +82,6 @@ fn front(dots: &[Dot], end: i32) -> Vec<Place> {
     front.iter().zip(ends).flat_map(|(&(x, y), end)| [(x, y), (end, y)]).collect()
 }
 
-/// Draws the labels of `dots`; labels are placed in the order of `dots`.
 fn draw_labels(area: &Area, dots: &[&Dot], obstacles: &[Corners], frame: Corners) -> DrawResult {
     let widths = dots.iter().map(|dot| (dot.place, width_of(&dot.point.label)));
     let boxes = place(&widths.collect::<Vec<_>>(), TEXT, obstacles, frame);
@@ -117,15 +112,13 @@ fn is_inside(a: &Corners, b: &Corners) -> bool {
     a[0].0 >= b[0].0 && a[0].1 >= b[0].1 && a[1].0 <= b[1].0 && a[1].1 <= b[1].1
 }
 
-/// Distance between a point and its label.
 const LABEL_GAP: i32 = 22;
 
-/// The boxes of the labels of `points` (position, label width), placed in order. Each label takes the first free
-/// candidate box inside `frame`. If none is free, the label is to the right of its point and may cover a label.
+/// Places the labels of `points`, given as position and label width. Each label takes the first free box inside
+/// `frame`. A label without a free box is right of its point and may cover another label.
 pub fn place(points: &[(Place, i32)], height: i32, obstacles: &[Corners], frame: Corners) -> Vec<Corners> {
     let mut taken = obstacles.to_vec();
     for &((x, y), width) in points {
-        // Five candidates at the height of the point, then the same five higher and lower by half lines.
         let steps = (0..40).flat_map(|i| [-i, i]).map(|i| i * height / 2);
         let lefts =
             [x + LABEL_GAP, x - LABEL_GAP - width, x + LABEL_GAP + 60, x - LABEL_GAP - 60 - width, x - width / 2];

@@ -23,7 +23,6 @@ fn mean_table(all: &[Measurement]) -> Table {
     mean_table_of(all, &Reference::of(all, None))
 }
 
-/// The text of a cell, without its interval if both ends print like the estimate.
 fn cell(table: &Table, row: &str, column: &str) -> String {
     let column = table.columns.iter().position(|c| c == column).unwrap_or_else(|| panic!("no column {column}"));
     let row = table.rows.iter().find(|r| r[0].text() == row).unwrap_or_else(|| panic!("no row {row}"));
@@ -53,8 +52,8 @@ fn ratios_are_geometric_means_against_the_tree_and_the_better_bvh() {
         .map(|(sampled, epochs)| cube().into_iter().map(|record| Measurement { sampled, epochs, ..record }).collect());
     assert_eq!(cell(&scene_table(&whole, &[]), "sah-kd", "primary"), "8.00");
     assert!(!legend(&whole, &[])[0].contains('~'));
-    let [told, once] = [&cube(), &one_epoch].map(|all| legend(all, &[])[1].contains("interval"));
-    assert!(told && !once, "one epoch has no interval");
+    let [many, once] = [&cube(), &one_epoch].map(|all| legend(all, &[])[1].contains("interval"));
+    assert!(many && !once, "one epoch has no interval");
 }
 
 #[test]
@@ -97,15 +96,14 @@ fn a_triangle_test_that_misses_what_is_hit_is_named() {
     assert!(scene_table(&all, &[]).notes.is_empty());
     all.iter_mut().find(|record| record.label == "obvhs-bvh2").unwrap().counts.hits = 0;
     let notes = scene_table(&all, &[]).notes;
-    let said = "rt-triangle finds hits for 0 of 1,000 primary rays, exact arithmetic for 20";
-    assert!(notes.len() == 1 && notes[0].starts_with(said), "{notes:?}");
+    let expected = "rt-triangle finds hits for 0 of 1,000 primary rays, exact arithmetic for 20";
+    assert!(notes.len() == 1 && notes[0].starts_with(expected), "{notes:?}");
 }
 
 #[test]
 fn what_lies_within_the_noise_is_said_to_be_no_difference() {
     let mut all = cube();
     for (i, record) in all.iter_mut().enumerate() {
-        // The twin is one percent slower, and the epochs differ by as much.
         let samples = vec![1e6, 1.01e6, 1e6, 1.01e6, 1e6];
         record.twin_samples_ns = (i < 2).then(|| samples.iter().map(|ns| ns * 1.01).collect());
         (record.samples_ns, record.epochs) = (samples, 5);
@@ -116,8 +114,8 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
     all[2].samples_ns = vec![1.01e6, 1e6, 1.01e6, 1e6, 1e6];
     let table = scene_table(&all, &[]);
     assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
-    let said = "A/A noise (median-kd built twice and compared with itself): 1.00%; 0 of 2";
-    assert!(table.notes[0].starts_with(said), "{:?}", table.notes);
+    let expected = "A/A noise (median-kd built twice and compared with itself): 1.00%; 0 of 2";
+    assert!(table.notes[0].starts_with(expected), "{:?}", table.notes);
     // The ratio to the twin varies more between epochs than its mean differs from 1.
     for record in &mut all[..2] {
         let by = [1.02, 0.98, 1.03, 0.98, 1.0];
@@ -158,7 +156,7 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
     let best = |row: &str| table.rows.iter().find(|r| r[0].text() == row).unwrap()[1].tone;
     assert_eq!((best("sah-kd"), best("sah-bvh")), (Tone::Best, Tone::Plain));
     assert!(table.notes.iter().any(|note| note.starts_with("(n of m)")), "{:?}", table.notes);
-    // A cell in which the reference has no time does not count.
+    // A scene on which the reference has no time does not count.
     all[0].mrays_per_s = None;
     assert_eq!(cell(&mean_table(&all), "sah-bvh", "primary"), "9.00 (1 of 2)");
     assert!(!mean_table(&all[..1]).has_values());

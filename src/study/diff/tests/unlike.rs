@@ -1,10 +1,9 @@
-//! Runs that cannot be compared.
+//! Tests of runs that cannot be compared.
 
 use super::*;
 
 type Edit = dyn Fn(&mut Side);
 
-/// A run, edited by `edit`.
 fn edited(slow: f64, sah: f64, edit: &dyn Fn(&mut Side)) -> Side {
     let mut side = side(run(slow, sah));
     edit(&mut side);
@@ -71,8 +70,8 @@ fn a_plan_that_a_gate_could_not_compare_is_refused_before_it_is_measured() {
         ("the budget differs", &|case, _| case.settings.budget_ns = Some(7)),
     ];
     for (part, edit) in edits {
-        let said = refused(edit).unwrap_err();
-        assert!(said.contains(part), "{part:?} is not in {said:?}");
+        let error = refused(edit).unwrap_err();
+        assert!(error.contains(part), "{part:?} is not in {error:?}");
     }
 }
 
@@ -94,11 +93,9 @@ fn on_two_machines_ratios_to_obvhs_are_compared_and_nothing_else() {
     let has_note = |comparison: &Comparison, part: &str| cautions(comparison).iter().any(|n| n.contains(part));
     assert!(has_note(&comparison, "Two machines, ") && has_note(&comparison, "Other (avx2)"));
     assert_eq!(compare(&old.all, &run(3.0, 1.1), None, 1).machines, None);
-    // If only the SIMD level differs, the caution names two instruction sets.
     let lanes = edited(1.0, 1.1, &|side| side.provenance.simd = "others".into());
     assert!(has_note(&Comparison::new(&old, &lanes, None, 1), "Two instruction sets, "));
 
-    // Runs of two machines are rejected if their rays or versions of obvhs differ, or if no reference is timed.
     let refused = |edit: &Edit| unlike(&old, &elsewhere(edit), false).unwrap_err().to_string();
     assert!(refused(&|side| side.all[0].workload_hash = "ff".into()).contains("the primary rays of Cube"));
     assert!(refused(&|side| side.provenance.obvhs = "0.5.0".into()).contains("the version of obvhs"));

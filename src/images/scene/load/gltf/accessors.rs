@@ -1,7 +1,7 @@
 //! Accessors of a glTF file: lists of vectors, matrices and indices in its buffers.
 //!
-//! The crate's iterators panic or misread where an accessor does not fit its type, its buffer view or its buffer. All
-//! of this is checked before.
+//! The iterators of the crate `gltf` panic or misread an accessor that does not fit its type or its buffer. This module
+//! checks every accessor first.
 
 use std::array;
 use std::iter::repeat_with;
@@ -13,17 +13,16 @@ use gltf::{Accessor, Document};
 use super::buffers::Bytes;
 use crate::scene::load::error::Fault;
 
-/// The accessors of a document by their numbers. All their elements lie within their buffer views and buffers.
+/// The elements of all accessors lie within their buffer views and buffers.
 #[derive(Clone, Copy)]
 pub(super) struct Accessors<'a> {
     document: &'a Document,
     buffers: &'a [Bytes],
 }
 
-/// Elements, or other things that are read from them.
 pub(super) type Elements<'a, T> = Result<Box<dyn Iterator<Item = T> + 'a>, Fault>;
 
-/// The crate has items of up to four components.
+/// The items of the crate have at most four components, but a matrix has sixteen.
 struct Vector<T, const N: usize>([T; N]);
 
 impl<T: Item, const N: usize> Item for Vector<T, N> {
@@ -48,8 +47,7 @@ impl<'a> Accessors<'a> {
         self.document.accessors().nth(number).ok_or_else(missing)
     }
 
-    /// The elements of an accessor: indices for one number each, vectors for three or four, matrices for sixteen. Vectors
-    /// may be stored as small integers.
+    /// `N` is 1 for indices, 3 or 4 for vectors, and 16 for matrices.
     pub fn read<const N: usize>(self, number: usize) -> Elements<'a, [f64; N]> {
         use DataType::{F32, I8, I16, U8, U16, U32};
         let accessor = self.get(number)?;
@@ -73,12 +71,12 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// The elements of an accessor; where it is normalised, as shares of `one`, which is 1 for types that cannot be.
+    /// Divides normalised elements by `one`. `one` is 1 for types that cannot be normalised.
     fn scaled<T: Item + Into<f64> + 'a, const N: usize>(self, from: Accessor<'a>, one: f64) -> Elements<'a, [f64; N]> {
         let (count, is_scaled) = (from.count(), from.normalized() && one != 1.0);
         let scaled = move |c: f64| if is_scaled { f64::from((c / one) as f32).max(-1.0) } else { c };
         let components = move |Vector(components): Vector<T, N>| components.map(|c| scaled(c.into()));
-        // The crate panics at an empty accessor, and has nothing for one without a place, which is all zeros.
+        // The crate panics at an empty accessor, and returns `None` for an accessor without data, which means zeros.
         let bytes = move |buffer: Buffer<'a>| Some(&self.buffers[buffer.index()][..]);
         match (count > 0).then(|| Iter::new(from, bytes)).flatten() {
             Some(elements) => Ok(Box::new(elements.map(components))),
@@ -86,7 +84,7 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// Checks where the elements of an accessor lie. Sparse ones ascend, for the crate leaves out those that do not.
+    /// Sparse indices must ascend, because the crate skips all other sparse elements.
     fn check(self, accessor: &Accessor<'a>) -> Result<(), Fault> {
         let fault = |problem| fault(accessor.index(), problem);
         let bytes = |view, offset, count, size| self.bytes(&view, offset, count, size).map_err(fault);
@@ -116,7 +114,7 @@ impl<'a> Accessors<'a> {
         Ok(())
     }
 
-    /// The bytes of `count` elements, at least one, of `size` bytes from `offset` in a buffer view; and their distance.
+    /// Returns the bytes of the elements and the stride. `count` must be at least 1.
     fn bytes(self, view: &View<'a>, offset: usize, count: usize, size: usize) -> Result<(&'a [u8], usize), String> {
         let number = view.index();
         let stride = view.stride().unwrap_or(size);

@@ -10,7 +10,7 @@ use percent_encoding::percent_decode_str;
 use crate::scene::load::error::{Fault, quoted};
 use crate::scene::load::files::{named_below, read_start};
 
-/// The bytes of a buffer; buffers of one file share them.
+/// The bytes of a buffer. Buffers with the same file share the bytes.
 pub(super) type Bytes = Rc<Vec<u8>>;
 
 pub(super) fn size(buffers: &[Bytes]) -> usize {
@@ -18,9 +18,7 @@ pub(super) fn size(buffers: &[Bytes]) -> usize {
     distinct.values().sum()
 }
 
-/// Reads the files of the buffers, each once, and takes embedded data out of the document.
 pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Path) -> Result<Vec<Bytes>, Fault> {
-    // No more is read of any file.
     let longest = list.iter().map(|buffer| buffer.byte_length.0).max().unwrap_or(0);
     let mut files: HashMap<PathBuf, Bytes> = HashMap::new();
     let mut read = |number: usize, uri: Option<String>| {
@@ -49,9 +47,9 @@ pub(super) fn read(list: &mut [Buffer], mut chunk: Option<Vec<u8>>, folder: &Pat
     for (number, buffer) in list.iter_mut().enumerate() {
         let fault = |problem: String| Fault::part(format!("buffer {number}"), problem);
         let data = read(number, buffer.uri.take()).map_err(fault)?;
-        let (owed, found) = (buffer.byte_length.0, data.len());
-        if (found as u64) < owed {
-            return Err(fault(format!("it should have {owed} bytes but has {found}: it is truncated")));
+        let (declared, found) = (buffer.byte_length.0, data.len());
+        if (found as u64) < declared {
+            return Err(fault(format!("it should have {declared} bytes but has {found}: it is truncated")));
         }
         buffers.push(data);
     }

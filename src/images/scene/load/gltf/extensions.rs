@@ -1,4 +1,4 @@
-//! Extensions of glTF: which are read, and what becomes of the others.
+//! Supported and ignored extensions of glTF.
 
 use serde_json::Value;
 
@@ -7,14 +7,10 @@ use crate::scene::load::notes::Notes;
 
 const READ: [&str; 2] = ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"];
 
-/// Extensions that change no triangle, by how their names begin.
+/// The beginnings of the names of extensions that change no triangle.
 const SHADING: &str = "ADOBE_materials_ EXT_lights_ EXT_materials_ EXT_mesh_features EXT_structural_metadata EXT_texture_ \
     FB_ngon_encoding KHR_animation_ KHR_lights_ KHR_materials_ KHR_texture_ KHR_xmp MSFT_packing_ MSFT_texture_";
 
-/// Notes which extensions are left out.
-///
-/// # Errors
-/// A document that requires an extension without which its triangles cannot be read, or an unknown one.
 pub(super) fn check(required: &Value, used: &Value, notes: &mut Notes) -> Result<(), Fault> {
     let is_shading = |name: &str| SHADING.split_whitespace().any(|start| name.starts_with(start));
     for name in others(required) {
@@ -25,7 +21,7 @@ pub(super) fn check(required: &Value, used: &Value, notes: &mut Notes) -> Result
         }
         notes.add(format!("the required extension {} changes no triangle and is ignored", quoted(name)));
     }
-    // Compressed data that are not required exist uncompressed as well.
+    // If compression is not required, the file also contains the uncompressed data.
     for name in others(used).filter(|name| !is_shading(name) && decompression(name).is_none()) {
         notes.add(format!("the extension {} is ignored: its changes to the scene are missing", quoted(name)));
     }
@@ -36,7 +32,6 @@ fn others(list: &Value) -> impl Iterator<Item = &str> {
     list.as_array().into_iter().flatten().filter_map(Value::as_str).filter(|name| !READ.contains(name))
 }
 
-/// How to remove an extension without which there may be no triangles.
 fn decompression(name: &str) -> Option<&'static str> {
     match name {
         "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
@@ -47,7 +42,6 @@ fn decompression(name: &str) -> Option<&'static str> {
     }
 }
 
-/// The accessors of translations, rotations and scales of the instances of a node, as far as there are such.
 pub(super) fn instances(node: &Value) -> [Option<usize>; 3] {
     let attributes = node.pointer("/extensions/EXT_mesh_gpu_instancing/attributes");
     let number = |accessor: &Value| accessor.as_u64().map_or(usize::MAX, |number| number as usize);

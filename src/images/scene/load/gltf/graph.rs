@@ -6,15 +6,10 @@ use gltf::{Document, Node};
 use super::placement::local;
 use crate::scene::load::error::Fault;
 
-/// Deeper graphs are rejected.
 const DEEPEST: usize = 1024;
 
-/// The nodes of the default scene, or of all roots when the file names no default scene, in the order of a walk that
-/// visits a node before its children; and the transforms of all nodes to world space.
-///
-/// # Errors
-/// A graph that is not a forest: a node with two parents, a cycle, a scene that shows a node twice or names one that is
-/// no root; or a graph deeper than 1024 nodes.
+/// The shown nodes, parents first, and the transforms of all nodes to world space. Without a default scene, all nodes
+/// are shown.
 pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), Fault> {
     let fault = |node: usize, problem: String| Err(Fault::part(format!("node {node}"), problem));
     let nodes: Vec<Node> = document.nodes().collect();
@@ -34,7 +29,7 @@ pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), F
         None => file_roots.clone().collect(),
     };
 
-    // Visit the shown nodes, then the hidden ones. The last entry of `waiting` is visited first.
+    // The last entry of `waiting` is visited first: the shown nodes precede the hidden nodes.
     let entry = |node, is_shown| (node, DMat4::IDENTITY, 1, is_shown);
     let mut waiting: Vec<_> = file_roots.map(|root| entry(root, false)).collect();
     waiting.extend(roots.into_iter().rev().map(|root| entry(root, true)));

@@ -22,15 +22,11 @@ use self::shape::Shape;
 use super::error::Fault;
 use crate::scene::{Material, Model};
 
-/// A scene may have at most as many triangles, and as many vertices, as its files have bytes, plus this number. Only
-/// shared meshes make more triangles than bytes.
-const MOST_REPEATED: usize = 1 << 24;
+/// The numbers of triangles and vertices are limited to the bytes of the files plus this number.
+const EXTRA_ELEMENTS: usize = 1 << 24;
 
-/// Reads a glTF file and expands its node graph: adds one copy of a mesh for each node or instance that shows it.
-///
-/// Transforms are multiplied in f64 and rounded once, when they are applied to vertices. Triangles of mirrored nodes
-/// are reversed, which keeps their front side. Points, lines, textures and morph targets are left out. It counts all
-/// visible triangles, vertices, normals and instances before it reads an element.
+/// Transforms are multiplied in `f64`, and vertices are rounded to `f32` once. Triangles of mirrored nodes are
+/// reversed, which keeps their front side.
 pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let (text::Document { mut root, instances, textured, mut notes }, chunk) = text::parse(&bytes)?;
     let size = bytes.len();
@@ -72,11 +68,11 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         }
     }
 
-    // Drop redundant data, and add the material of parts without one.
     if model.normals.is_empty() {
         model.normal_indices = Vec::new();
     }
     let used: HashSet<u32> = model.material_of.iter().copied().collect();
+    // The material of parts without a material has the index after the last material.
     if used.contains(&(model.materials.len() as u32)) {
         model.materials.push(Material::named("default"));
     }
@@ -97,13 +93,12 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     Ok(model)
 }
 
-/// Checks the sizes against the limit and allocates the memory for the whole scene, before anything is expanded: a
-/// small file can show a large mesh many times.
+/// This check must precede the expansion, because a small file can show a large mesh many times.
 ///
-/// `sizes` are the numbers of vertices, normals, triangles, and other elements to read: parts and instances.
+/// `sizes` are the numbers of vertices, normals and triangles, and the sum of parts and instances.
 fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fault> {
     let [vertices, normals, triangles, others] = sizes;
-    let most = bytes.saturating_add(MOST_REPEATED).min(u32::MAX as usize - 1);
+    let most = bytes.saturating_add(EXTRA_ELEMENTS).min(u32::MAX as usize - 1);
     if sizes.iter().all(|&size| size <= most) && model.try_reserve(vertices, normals, triangles).is_ok() {
         return Ok(());
     }
@@ -113,7 +108,6 @@ fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fau
     Err(Fault::file(format!("{shown}, but {limit}: split the scene")))
 }
 
-/// Adds the triangles of a copy of a mesh.
 fn add(
     model: &mut Model,
     placement: &Placement,
@@ -154,15 +148,15 @@ fn add(
     Ok(())
 }
 
-/// The transform of normals: the cofactor matrix times the sign of the determinant. It is the inverse transpose times a
-/// positive factor, and it exists for singular matrices too.
+/// The cofactor matrix times the sign of the determinant is a positive multiple of the inverse transpose. The cofactor
+/// matrix also exists for singular transforms.
 fn to_normal(linear: DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = linear;
     let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
 
-/// Uses the base colour as diffuse colour; the course's shading has no metals and no roughness.
+/// The base colour becomes the diffuse colour. The renderer has no metals and no roughness.
 fn material((number, read): (usize, gltf::Material)) -> Material {
     let name = read.name().map_or_else(|| format!("material {number}"), str::to_owned);
     let [r, g, b, _] = read.pbr_metallic_roughness().base_color_factor();

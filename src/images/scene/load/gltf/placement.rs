@@ -1,4 +1,4 @@
-//! The transforms of a mesh to world space: of its node, its instances or its skin.
+//! The transforms that place a mesh in world space.
 
 use std::iter::{once, repeat};
 
@@ -9,8 +9,7 @@ use gltf::{Mesh, Node};
 use super::accessors::{Accessors, Elements, fault};
 use crate::scene::load::error::Fault;
 
-/// A node that shows a mesh. If it has a skin, the first joint places the mesh instead of the node. In the pose in which
-/// an artist bound the skin, all joints have the same effect.
+/// The first joint of a skin places the mesh instead of the node. In the bind pose, all joints have the same effect.
 pub(super) struct Placement<'a> {
     pub node: Node<'a>,
     pub mesh: Mesh<'a>,
@@ -19,7 +18,6 @@ pub(super) struct Placement<'a> {
 }
 
 impl<'a> Placement<'a> {
-    /// The number of copies of the mesh in the scene.
     pub fn copies(&self, accessors: Accessors) -> Result<usize, Fault> {
         let mut copies = None;
         for accessor in self.instances.into_iter().flatten() {
@@ -32,7 +30,6 @@ impl<'a> Placement<'a> {
         Ok(copies.unwrap_or(1))
     }
 
-    /// The transform of each copy to world space; `worlds` are the transforms of all nodes.
     pub fn transforms(&self, worlds: &[DMat4], accessors: Accessors<'a>) -> Elements<'a, DMat4> {
         let mut world = worlds[self.node.index()];
         if let Some(skin) = self.node.skin()
@@ -57,7 +54,6 @@ fn read_or<const N: usize>(from: Option<usize>, accessors: Accessors, default: [
     from.map_or(Ok(Box::new(repeat(default))), |accessor| accessors.read(accessor))
 }
 
-/// The transform of a node relative to its parent.
 pub(super) fn local(node: &Node) -> DMat4 {
     match node.transform() {
         Transform::Matrix { matrix } => DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from))),
@@ -68,7 +64,7 @@ pub(super) fn local(node: &Node) -> DMat4 {
 }
 
 fn decomposed(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> DMat4 {
-    // A unit quaternion in f32 is not of unit length in f64.
+    // A unit quaternion in `f32` does not have unit length in `f64`.
     let rotation = DQuat::from_array(rotation);
     let length = rotation.length();
     let rotation = if length > 0.0 && length.is_finite() { rotation / length } else { DQuat::IDENTITY };

@@ -1,4 +1,4 @@
-//! A mesh of a glTF file, in its own space.
+//! A mesh of a glTF file, in object space.
 
 use std::num::Saturating;
 
@@ -9,7 +9,7 @@ use indexmap::IndexSet;
 use super::accessors::Accessors;
 use crate::scene::load::error::Fault;
 
-/// A mesh whose accessors are counted, but not yet read. Its primitives often share accessors.
+/// The accessors are counted, but not yet read. Primitives often share accessors.
 #[derive(Default)]
 pub(super) struct Shape<'a> {
     pub positions: IndexSet<usize>,
@@ -17,11 +17,9 @@ pub(super) struct Shape<'a> {
     pub parts: Vec<Part<'a>>,
     /// The numbers of vertices, normals, triangles and primitives.
     pub sizes: [Saturating<usize>; 4],
-    /// Primitives that are points or lines, or have no positions.
     pub left_out: usize,
 }
 
-/// The triangles of a primitive.
 pub(super) struct Part<'a> {
     pub primitive: Primitive<'a>,
     mesh: usize,
@@ -60,8 +58,8 @@ impl<'a> Shape<'a> {
             return Err(fault(mesh, &primitive, format!("its {corners} corners do not make whole triangles")));
         }
 
-        // A part takes time even if it has no triangles.
         self.sizes[2] += if is_list { corners / 3 } else { corners.saturating_sub(2) };
+        // Primitives are counted too, because reading a primitive takes time even without triangles.
         self.sizes[3] += 1;
         let mut add = |accessor, kind: usize| {
             let list = if kind == 0 { &mut self.positions } else { &mut self.normals };
@@ -77,7 +75,6 @@ impl<'a> Shape<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// The vertices of its triangles.
     pub fn triangles(&self, accessors: Accessors<'a>) -> Result<Vec<[u32; 3]>, Fault> {
         let corners: Vec<u32> = match self.primitive.indices() {
             Some(indices) => accessors.read(indices.index())?.map(|[index]| index as u32).collect(),

@@ -1,8 +1,7 @@
-//! The text of a glTF document, alone or in a binary file.
+//! Parses the JSON of a glTF document.
 //!
-//! The crate `gltf` has the types of a document and checks its indices. The crate rejects valid files because of parts
-//! that this loader does not read, and misreads some invalid files. The document is therefore reduced to the parts that
-//! are read before the crate parses it.
+//! The crate `gltf` rejects valid files because of parts that this loader does not read, and misreads some invalid
+//! files. This module therefore removes the unused parts before the crate parses the document.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -17,46 +16,45 @@ use serde_json::{Value, json};
 use super::extensions;
 use crate::scene::load::error::{Fault, quoted};
 use crate::scene::load::notes::Notes;
-use crate::scene::load::text::{is_among, plain};
+use crate::scene::load::text::{is_among, without_byte_order_mark};
 
-/// The most objects in a small document: each takes some hundred bytes of memory, and may be as short as `{}`.
+/// The most objects in a small document. An object may be as short as `{}`, but takes hundreds of bytes of memory.
 const MOST_OBJECTS: usize = 1 << 16;
 
-/// So many bytes of the file allow for one more object.
+/// The number of bytes of the file that allow one more object.
 const BYTES_AN_OBJECT: usize = 48;
 
 /// The most entries of lists and objects, per object.
 const ENTRIES_AN_OBJECT: usize = 12;
 
-/// The keys that are read.
+/// `prune` removes all other keys.
 const KEYS: &str = "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType \
     count indices inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness \
     primitives rotation scale skin sparse targets translation type uri values NORMAL POSITION";
 
-/// The keys of numbers that may be 2^32 or more. Indices may not: the crate would cut them off.
+/// The keys of numbers that may be 2^32 or more. The crate would truncate larger indices.
 const LARGE: &str = "baseColorFactor byteLength byteOffset count matrix rotation scale translation";
 
 pub(super) struct Document {
-    /// All indices are in range; accessors are not checked against their buffers.
+    /// All indices are in range. The accessors are not yet checked against the buffers.
     pub root: Root,
-    /// For each node, the accessors of translations, rotations and scales of the instances of its mesh.
+    /// For each node, the accessors of the translations, rotations and scales of instances.
     pub instances: Vec<[Option<usize>; 3]>,
-    /// Whether each material has a texture.
     pub textured: Vec<bool>,
-    /// About extensions.
     pub notes: Notes,
 }
 
-/// The document in a file, and where its binary chunk lies, if there is one.
+/// The range locates the binary chunk in `bytes`.
 pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fault> {
-    let (text, chunk) = if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (plain(bytes)?, None) };
+    let (text, chunk) =
+        if bytes.starts_with(b"glTF") { chunks(bytes)? } else { (without_byte_order_mark(bytes)?, None) };
     check_size(text, bytes.len())?;
     if !text.trim_ascii_start().starts_with(b"{") {
         return Err(no_gltf("it is not a JSON object"));
     }
     let broken = |error: serde_json::Error| no_gltf(&error.to_string());
     let members: Members = serde_json::from_slice(text).map_err(broken)?;
-    // Other versions and extensions first: they explain what is wrong with the rest.
+    // Check the version and the extensions first: an unsupported version causes other errors.
     check_version(&value(&members, "asset")?)?;
     let mut notes = Notes::default();
     let [required, used] = ["extensionsRequired", "extensionsUsed"].map(|key| value(&members, key));
@@ -71,7 +69,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
         instances.push(extensions::instances(&node));
         nodes.push(typed(&place, node)?);
     }
-    // The crate wants a list of nodes, which is optional.
+    // The crate requires the list of nodes, which is optional in the format.
     let mut scenes = value(&members, "scenes")?;
     for scene in scenes.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
         scene.entry("nodes").or_insert_with(|| json!([]));
@@ -103,22 +101,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     Ok((Document { root, instances, textured, notes }, chunk))
 }
 
-/// The members of a document as text: all values of a document would take twenty times as much memory.
+/// The members stay text, because parsed values take twenty times as much memory.
 type Members<'a> = HashMap<Cow<'a, str>, &'a RawValue>;
 
-/// A member, null if there is none.
 fn value(members: &Members, key: &str) -> Result<Value, Fault> {
     let read = |text: &&RawValue| serde_json::from_str(text.get());
     let value = members.get(key).map_or(Ok(Value::Null), read);
     value.map_err(|error| Fault::part(key, error.to_string()))
 }
 
-/// A list of items of the crate; a missing one is empty.
 fn typed_list<T: DeserializeOwned>(key: &str, list: Value) -> Result<Vec<T>, Fault> {
     if list.is_null() { Ok(vec![]) } else { typed(key, list) }
 }
 
-/// A value of a type of the crate, without what is not read.
 fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault> {
     prune("", &mut value).map_err(|problem| Fault::part(place, problem))?;
     serde_path_to_error::deserialize(value).map_err(|error| {
@@ -127,8 +122,8 @@ fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault>
     })
 }
 
-/// Cuts out what is not read. Indices of 2^32 or more become the largest, which is out of bounds. serde takes a list for an
-/// object as well.
+/// Indices of 2^32 or more become `u32::MAX`, which is out of bounds. Nested lists are errors, because serde would read
+/// a list as an object.
 fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
     match value {
         Value::Object(members) => {
@@ -145,11 +140,10 @@ fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// Checks the indices, types and modes of a document.
 fn validate(root: &Root) -> Result<(), Fault> {
     let mut fault = None;
     root.validate(root, Path::new, &mut |path, error| {
-        // A missing key is optional, or not read. Strides are checked with the accessors.
+        // A missing key is optional or not read. `Accessors` checks strides.
         if fault.is_none() && error != Error::Missing && !path().as_str().ends_with("byteStride") {
             let problem = format!("{}: export the file again", error.to_string().to_lowercase());
             fault = Some(Fault::part(path().0, problem));
@@ -181,7 +175,7 @@ fn no_gltf(problem: &str) -> Fault {
     Fault::file(format!("it is not a glTF 2.0 file: {problem}"))
 }
 
-/// The text of a binary file, and where its binary chunk lies. Further chunks are ignored, as the format has it.
+/// The format requires readers to ignore further chunks.
 fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<Range<usize>>), Fault> {
     let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let length = match (word(4), word(8)) {
@@ -203,7 +197,7 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<Range<usize>>), Fault> {
     Ok((&bytes[text], binary))
 }
 
-/// Checks the number of objects in a document against the size of its file; those in strings count as well.
+/// Characters in strings count as well.
 fn check_size(text: &[u8], bytes: usize) -> Result<(), Fault> {
     let count = |bytes: &[u8]| text.iter().filter(|byte| bytes.contains(byte)).count();
     let (objects, entries) = (count(b"{"), count(b",["));

@@ -1,8 +1,7 @@
-//! The statements of an OBJ file for tobj, and the data that tobj does not return.
+//! Passes the statements of an OBJ file to tobj, and keeps data that tobj drops.
 //!
-//! tobj is given one clean statement at a time: the place of its errors is then known. The text is read twice: first
-//! vertices and normals, then faces, which may refer to later vertices. Comments that begin with "tobj" explain a
-//! guard; each has a test that fails without it.
+//! tobj receives one statement at a time, to locate errors. The text is read twice, because faces may refer to later
+//! vertices. Comments about tobj explain a guard. A test fails without the guard.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -15,18 +14,16 @@ use crate::scene::load::error::{Fault, quoted};
 use crate::scene::load::notes::{Notes, SMALL};
 use crate::scene::load::text::{is_among, name, number, statements, words};
 
-/// Statements for visible elements other than faces: points, lines, curves and surfaces.
 const SHAPES: &str = "p l curv curv2 surf bsp bzp cdc cdp";
 
-/// Other statements of the format that are skipped: texture coordinates, groups, parameters, display attributes.
 const SKIPPED: &str = "vt vp g o s cstype deg bmat step parm trim hole scrv sp end con mg bevel c_interp d_interp lod \
     maplib usemap shadow_obj trace_obj ctech stech call csh res fo cg texid smooth";
 
-/// A face with more corners is taken for a mistake.
+/// A face with more corners is probably a mistake.
 const MOST_CORNERS: usize = 1 << 20;
 
-/// tobj holds 104 bytes for a face, and up to 48 more for a corner of a polygon, until its model ends: up to thirty times
-/// the text. So a model ends after so many corners. A vertex that several models use stays one: see [`Vectors`].
+/// Until a model ends, tobj uses up to thirty times the memory of the text. A model therefore ends after this number of
+/// corners. [`Vectors`] merges the vertices of several models.
 const CORNERS_IN_MODEL: usize = 1 << 16;
 
 #[derive(Clone, Copy)]
@@ -35,15 +32,13 @@ enum Reading {
     Faces,
 }
 
-/// Consecutive faces.
+/// Consecutive faces with equal material and smoothness.
 pub(super) struct Section {
     pub faces: usize,
     pub material: u32,
-    /// Whether all corners have normals.
     pub is_smooth: bool,
 }
 
-/// The filter's findings in the statements.
 #[derive(Default)]
 pub(super) struct Contents {
     pub vertices: Vectors,
@@ -52,12 +47,12 @@ pub(super) struct Contents {
     pub sections: Vec<Section>,
     /// The words after each `mtllib`.
     pub libraries: IndexSet<Vec<u8>>,
-    /// Names in the order of their first use. tobj forgets those that no library defines.
+    /// Names in the order of first use. tobj drops names that no library defines.
     pub materials: IndexSet<Vec<u8>>,
     material: u32,
-    /// The name of the next face's material, if it may be another one.
+    /// The name after the last `usemtl`, until a face uses the name.
     next_material: Option<Vec<u8>>,
-    /// Corners of the face being read: vertex and normal counted from 1, or normal 0 for none.
+    /// Corners of the current face: vertex and normal, counted from 1. A missing normal is 0.
     corners: Vec<[u32; 2]>,
     models: u32,
     corners_in_model: usize,
@@ -65,7 +60,6 @@ pub(super) struct Contents {
     small_faces: usize,
     shapes: usize,
     unknown: usize,
-    /// The first unknown statement, with its line.
     first_unknown: Option<(usize, String)>,
     /// The bytes of a statement that tobj has not yet read.
     to_tobj: VecDeque<u8>,
@@ -74,7 +68,7 @@ pub(super) struct Contents {
 pub(super) struct Filter<'a> {
     statements: Box<dyn Iterator<Item = (Reading, usize, Cow<'a, [u8]>)> + 'a>,
     pub contents: Contents,
-    /// The fault of a statement. tobj itself finds no fault in the statements that it is given.
+    /// The fault of a statement. tobj finds no faults, because the filter rejects faulty statements.
     pub fault: Option<Fault>,
 }
 
@@ -87,7 +81,6 @@ impl<'a> Filter<'a> {
     }
 }
 
-/// Gives one statement at a time.
 impl Read for Filter<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         while self.contents.to_tobj.is_empty()
@@ -103,8 +96,7 @@ impl Read for Filter<'_> {
 }
 
 impl Contents {
-    /// Notes what is left out. An error if there are no triangles: it may be another format, in which tobj finds nothing
-    /// wrong.
+    /// Returns an error if there are no triangles, because tobj reports no error for files of other formats.
     pub fn check(&self, notes: &mut Notes) -> Result<(), Fault> {
         notes.count(self.small_faces, "face", SMALL);
         notes.count(self.shapes, "statement", "of points, lines, curves or surfaces: ignored");
@@ -121,7 +113,6 @@ impl Contents {
         (self.triangles > 0).then_some(()).ok_or_else(none)
     }
 
-    /// Reads a statement, and writes what tobj needs of it.
     fn read(&mut self, reading: Reading, line: usize, statement: &[u8]) -> Result<(), String> {
         let mut words = words(statement);
         let Some(keyword) = words.next() else { return Ok(()) };
@@ -147,8 +138,8 @@ impl Contents {
         Ok(())
     }
 
-    /// Writes a vertex or a normal with its three numbers; none if it has not as many. tobj also splits words at white
-    /// space outside of ASCII, and takes nan, inf and 1e999 for coordinates.
+    /// Returns `None` if there are fewer than three numbers. tobj also splits words at non-ASCII white space, and
+    /// accepts nan, inf and 1e999 as coordinates.
     fn vector<'w>(&mut self, keyword: &[u8], mut words: impl Iterator<Item = &'w [u8]>) -> Option<()> {
         let is_vertex = keyword == b"v";
         let vectors = if is_vertex { &mut self.vertices } else { &mut self.normals };
@@ -161,7 +152,7 @@ impl Contents {
             self.to_tobj.extend(word);
         }
         self.to_tobj.push_back(b'\n');
-        // tobj divides by a fourth number. More are colours, which tobj wants for every vertex or none.
+        // tobj divides by a fourth number. Further numbers are colours, which tobj requires for every vertex or none.
         if is_vertex && let (Some(weight), None) = (words.next(), words.next()) {
             self.weighted += usize::from(number::<f32>(weight) != Some(1.0));
         }
@@ -198,7 +189,7 @@ impl Contents {
         self.corners_in_model += self.corners.len();
         self.to_tobj.push_back(b'f');
         for &[vertex, normal] in &self.corners {
-            // tobj gives a corner without a normal the normal of another corner: here it is the first of the file.
+            // tobj gives a corner without a normal the normal of another corner. Use normal 1 instead.
             let normal = normal.max(1);
             self.vertices.add_use(vertex, self.models);
             self.normals.add_use(normal, self.models);
@@ -208,8 +199,8 @@ impl Contents {
         Ok(())
     }
 
-    /// The vertex and the normal of a corner. tobj resolves an index that is relative, or forward, in what it has read; it
-    /// panics on normals such as -4 of three and 6148914691236517206, and takes 0 for none.
+    /// tobj resolves relative and forward indices among the vectors read so far. tobj panics on normals such as -4 of
+    /// three and 6148914691236517206, and reads index 0 as a missing normal.
     fn corner(&self, word: &[u8]) -> Result<[u32; 2], String> {
         let mut parts = word.split(|&b| b == b'/');
         let vertex = self.vertices.index(parts.next().unwrap_or_default(), "vertex")?;

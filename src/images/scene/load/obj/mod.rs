@@ -1,6 +1,6 @@
-//! Wavefront OBJ, by tobj behind a filter.
+//! Reads Wavefront OBJ with the crate `tobj`, behind a filter.
 //!
-//! Vertices and normals keep the order of the file; unused ones are left out, because tobj does not return them.
+//! Vertices and normals keep the order of the file. tobj does not return unused vertices and normals.
 
 mod filter;
 mod vectors;
@@ -16,16 +16,14 @@ use self::filter::{Contents, Filter};
 use super::error::Fault;
 use super::mtl;
 use super::notes::Notes;
-use super::text::plain;
+use super::text::without_byte_order_mark;
 use crate::scene::Model;
 use crate::scene::polygon::Splitter;
 
-/// Reads the text of an OBJ file and the MTL files that it names, which are searched in `folder`.
-///
-/// A face is flat unless all its corners have normals.
+/// `folder` contains the MTL files. A face is flat unless all its corners have normals.
 pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
-    // tobj takes a byte order mark for a part of the first keyword, and finds nothing in UTF-16.
-    let mut filter = BufReader::new(Filter::new(plain(bytes)?));
+    // tobj reads a byte order mark as a part of the first keyword, and finds no statements in UTF-16.
+    let mut filter = BufReader::new(Filter::new(without_byte_order_mark(bytes)?));
     let read = load_obj_buf(&mut filter, &LoadOptions::default(), |_| Ok(Default::default()));
     let Filter { mut contents, fault, .. } = filter.into_inner();
     let (parts, _) = read.map_err(|error| fault.unwrap_or_else(|| Fault::file(error.to_string())))?;
@@ -39,9 +37,9 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
 
 fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes) -> Model {
     let positions = parts.iter().flat_map(|part| part.mesh.positions.chunks_exact(3));
-    let (positions, vertices) = mem::take(&mut contents.vertices).place(positions);
+    let (positions, vertices) = mem::take(&mut contents.vertices).in_file_order(positions);
     let normals = parts.iter().flat_map(|part| part.mesh.normals.chunks_exact(3));
-    let (normals, normal_numbers) = mem::take(&mut contents.normals).place(normals);
+    let (normals, normal_numbers) = mem::take(&mut contents.normals).in_file_order(normals);
 
     let is_smooth = contents.sections.iter().any(|section| section.is_smooth);
     let has_materials = contents.materials.len() > 1;
@@ -59,7 +57,7 @@ fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes
     let (mut vertices, mut normals) = (&vertices[..], &normal_numbers[..]);
     let mut sections = contents.sections.iter().flat_map(|section| repeat_n(section, section.faces));
     for mesh in parts.into_iter().map(|part| part.mesh) {
-        // tobj leaves the sizes out where all faces are triangles.
+        // tobj returns no sizes if all faces are triangles.
         let (mut sizes, mut start) = (mesh.face_arities.iter(), 0);
         while start < mesh.indices.len() {
             let size = sizes.next().map_or(3, |&size| size as usize);

@@ -1,4 +1,4 @@
-//! The vertices or the normals of a file, and what tobj makes of them.
+//! The order of the vertices or normals of an OBJ file.
 
 use std::mem;
 
@@ -7,20 +7,20 @@ use glam::Vec3;
 use crate::scene::load::error::quoted;
 use crate::scene::load::text::number;
 
-/// tobj numbers the vectors of each model again, in the order in which faces use them first, and does not return their
-/// numbers in the file: this is that order. Without it a vector of several models would become several.
+/// tobj numbers the vectors of each model again, in the order of first use. tobj does not return the numbers in the
+/// file. This type records the order, to merge the copies of a vector in several models.
 #[derive(Default)]
 pub(super) struct Vectors {
-    /// The last model that uses each vector, counted from 1; 0 if none does.
+    /// The last model that uses each vector, counted from 1. 0 if no model does.
     pub last_model: Vec<u32>,
-    /// The vectors of all models, counted from 0.
+    /// The vectors of all models in the order of first use, counted from 0.
     order: Vec<u32>,
     /// The vectors before the current statement, in the second reading.
     pub so_far: usize,
 }
 
 impl Vectors {
-    /// Notes that a corner in a model uses a vector, which is counted from 1 and need not exist.
+    /// `index` counts from 1. The vector need not exist.
     pub fn add_use(&mut self, index: u32, model: u32) {
         if let Some(last) = self.last_model.get_mut(index as usize - 1)
             && mem::replace(last, model) != model
@@ -29,7 +29,7 @@ impl Vectors {
         }
     }
 
-    /// Reads an index that counts from 1, or backwards from -1, as one that counts from 1.
+    /// Negative indices count backwards from -1. The result counts from 1.
     pub fn index(&self, word: &[u8], what: &str) -> Result<u32, String> {
         let (count, so_far) = (self.last_model.len(), self.so_far);
         let index: i64 = number(word).ok_or_else(|| format!("{} is not a {what} index", quoted(word)))?;
@@ -46,8 +46,8 @@ impl Vectors {
         }
     }
 
-    /// The vectors that faces use, in the order of the file, and the number of each one that tobj found.
-    pub fn place<'a>(mut self, found: impl Iterator<Item = &'a [f32]>) -> (Vec<Vec3>, Vec<u32>) {
+    /// Returns the used vectors in the order of the file, and the number of each element of `found`.
+    pub fn in_file_order<'a>(mut self, found: impl Iterator<Item = &'a [f32]>) -> (Vec<Vec3>, Vec<u32>) {
         let mut numbers = self.last_model;
         let mut count = 0;
         for number in numbers.iter_mut().filter(|number| **number > 0) {

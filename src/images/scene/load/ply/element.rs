@@ -1,45 +1,43 @@
-//! The elements of a PLY file, as its header declares them, and their rows.
+//! The elements that the header of a PLY file declares, and their rows.
 
 use std::collections::HashSet;
 
 use super::number::{ENCODINGS, Kind, word};
 use crate::scene::load::error::{Fault, quoted};
-use crate::scene::load::text::{lines, plain};
+use crate::scene::load::text::{lines, without_byte_order_mark};
 
 pub(super) const STRIPS: &str = "tristrips";
 
 /// The properties of a vertex that are read.
-pub(super) const VECTORS: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
+pub(super) const VERTEX_PROPERTIES: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
 
-/// The two names in use for the corners of a face or strip.
+/// Files use one of these names for the corners of a face or strip.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// The most bytes of a header, and entries of a list.
+/// The most bytes of a header, and the most entries of a list.
 const LONGEST: usize = 1 << 20;
 
-/// The lines of a header so far.
 #[derive(Default)]
 pub(super) struct Header {
     elements: Vec<Element>,
-    /// The number of the encoding, once its line has been read.
+    /// Index into [`ENCODINGS`]. `None` before the line `format`.
     encoding: Option<usize>,
-    /// The names of elements, and of properties after the name of their element.
+    /// The names of elements, and the names of properties in the form `ELEMENT PROPERTY`.
     names: HashSet<String>,
 }
 
 impl Header {
-    /// Reads the elements that a file declares. Also returns the rows that follow.
     pub fn read(bytes: &[u8]) -> Result<(Vec<Element>, &[u8]), Fault> {
-        let bytes = plain(bytes)?;
+        let bytes = without_byte_order_mark(bytes)?;
         if !bytes.starts_with(b"ply") {
             return Err(Fault::line(1, "a PLY file begins with the line `ply`: this is another format"));
         }
-        // A first byte of the rows may look like the second one of a line end.
+        // The line `ply` determines the line end, because the first byte of the rows may equal `\n`.
         let line_end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
         let (mut header, mut number, mut read) = (Self::default(), 1, 0);
         let text = &bytes[..bytes.len().min(LONGEST)];
         while let Some(length) = text[read..].iter().position(|&byte| byte == line_end) {
-            // Comments may be in any encoding.
+            // Comments need not be UTF-8.
             let line = String::from_utf8_lossy(text[read..read + length].trim_ascii());
             read += length + 1;
             match &*line {
@@ -75,7 +73,7 @@ impl Header {
                     _ => return Err(unknown()),
                 };
                 let (columns, is_right): (&[&str], _) = match element.name.as_str() {
-                    "vertex" => (&VECTORS, length.is_none()),
+                    "vertex" => (&VERTEX_PROPERTIES, length.is_none()),
                     "face" | STRIPS => (&CORNERS, length.is_some() && kind.is_integer),
                     _ => (&[], true),
                 };
@@ -100,14 +98,13 @@ pub(super) struct Element {
     pub name: String,
     pub count: usize,
     pub properties: Vec<Property>,
-    /// The number of the encoding, 0 for text.
+    /// Index into [`ENCODINGS`]. 0 is text.
     pub encoding: usize,
 }
 
 pub(super) struct Property {
-    /// The column of its numbers; `None` if they are skipped.
+    /// The column of the numbers. `None` skips the property.
     pub column: Option<usize>,
-    /// The type of the length, if it is a list.
     pub length: Option<Kind>,
     pub kind: Kind,
 }
@@ -116,10 +113,9 @@ pub(super) struct Property {
 pub(super) type Next = Option<(usize, f64)>;
 
 impl Element {
-    /// Takes all rows of the element from the front of `rows` and passes on their numbers.
     pub fn read(&self, rows: &mut &[u8], mut take: impl FnMut(Next) -> Result<(), String>) -> Result<(), Fault> {
         let Self { name, count, properties, encoding } = self;
-        // Each number takes a byte. The last line may lack its line break.
+        // Each number takes at least one byte. The last line may lack its line break.
         if count.saturating_mul(properties.len().max(1)) > rows.len() + 1 {
             let problem = format!("the header declares {count} rows for {} bytes: the file is truncated", rows.len());
             return Err(Fault::part(format!("element {name}"), problem));

@@ -5,17 +5,13 @@ mod number;
 
 use glam::Vec3;
 
-use self::element::{Element, Header, STRIPS, VECTORS};
+use self::element::{Element, Header, STRIPS, VERTEX_PROPERTIES};
 use super::error::Fault;
 use super::notes::{Notes, SMALL};
 use crate::scene::polygon::Splitter;
 use crate::scene::{Material, Model};
 
-/// Reads a PLY file: the positions and, if there are any, normals of its vertices, and the triangles of its faces and
-/// strips.
-///
-/// Faces are read twice: the first pass checks them and keeps nothing, because a rejected file must take little memory
-/// beyond its own bytes.
+/// Faces are read twice. The first pass only checks them, because a rejected file must take little memory.
 pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     let (elements, mut rows) = Header::read(bytes)?;
     let vertex = elements.iter().find(|element| element.name == "vertex");
@@ -71,13 +67,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
 fn vertices(element: &Element, rows: &mut &[u8], model: &mut Model) -> Result<(), Fault> {
     let has = |column: &usize| element.properties.iter().any(|property| property.column == Some(*column));
     if let Some(axis) = (0..3).find(|axis| !has(axis)) {
-        return Err(Fault::part("element vertex", format!("the property `{}` is missing", VECTORS[axis])));
+        return Err(Fault::part("element vertex", format!("the property `{}` is missing", VERTEX_PROPERTIES[axis])));
     }
-    let smooth = (3..VECTORS.len()).all(|column| has(&column));
-    // A vertex takes three bytes or more.
+    let smooth = (3..VERTEX_PROPERTIES.len()).all(|column| has(&column));
+    // A vertex takes at least three bytes.
     model.positions.reserve_exact(element.count.min(rows.len() / 3));
     model.normals.reserve_exact(if smooth { model.positions.capacity() } else { 0 });
-    let mut vectors = [0.0; VECTORS.len()];
+    let mut vectors = [0.0; VERTEX_PROPERTIES.len()];
     element.read(rows, |number| {
         if let Some((column, number)) = number {
             vectors[column] = number as f32;
@@ -93,7 +89,7 @@ fn vertices(element: &Element, rows: &mut &[u8], model: &mut Model) -> Result<()
     })
 }
 
-/// Reads faces or triangle strips, and passes on the corners of each face, or of each triangle of a strip.
+/// `take` receives the corners of each face, or the corners of each triangle of a strip.
 fn polygons(element: &Element, rows: &mut &[u8], vertices: usize, mut take: impl FnMut(&[u32])) -> Result<(), Fault> {
     if element.properties.iter().filter(|property| property.column.is_some()).count() != 1 {
         let problem = "it must have one list of corners, with the name `vertex_indices`";
@@ -107,7 +103,7 @@ fn polygons(element: &Element, rows: &mut &[u8], vertices: usize, mut take: impl
                 corners.push(corner as u32);
                 if is_strip && corners.len() == 3 {
                     take(&corners);
-                    // The next triangle lies beyond the last edge and has its ends in the reverse order.
+                    // The next triangle shares the last edge, with the ends in reverse order.
                     corners.swap_remove(triangles % 2);
                     triangles += 1;
                 }
@@ -115,7 +111,7 @@ fn polygons(element: &Element, rows: &mut &[u8], vertices: usize, mut take: impl
             Some((_, corner)) if !is_strip || corner != -1.0 => {
                 return Err(format!("its corner {corner} is not one of the {vertices} vertices"));
             }
-            // The end of a row, or of a strip within it.
+            // The end of a row, or -1 for the end of a strip.
             _ => {
                 if !is_strip || triangles == 0 && !corners.is_empty() {
                     take(&corners);

@@ -1,10 +1,10 @@
-//! Numbers of all types of PLY, in text and in bytes.
+//! Reads numbers of all types of PLY, in text and in binary.
 
 pub(super) const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
 
 type Readers = [fn(&mut &[u8]) -> Result<f64, &'static str>; ENCODINGS.len()];
 
-/// A number type. `f64` holds each value of each of them exactly.
+/// A number type. `f64` represents every value exactly.
 #[derive(Clone, Copy)]
 pub(super) struct Kind {
     pub is_integer: bool,
@@ -26,7 +26,6 @@ macro_rules! kind {
 }
 
 impl Kind {
-    /// The type with this name; each has two.
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "char" | "int8" => kind!(i8, is_integer: true),
@@ -53,7 +52,7 @@ fn parse<N: std::str::FromStr + Into<f64>>(rows: &mut &[u8]) -> Result<f64, &'st
     word.parse().map(N::into).map_err(|_| "the line does not hold the numbers that the header declares")
 }
 
-/// Takes the next word of the line.
+/// Returns `None` at the end of the line.
 pub(super) fn word<'a>(rows: &mut &'a [u8]) -> Option<&'a [u8]> {
     let start = rows.iter().position(|byte| matches!(byte, b'\n' | b'\r') || !byte.is_ascii_whitespace())?;
     *rows = &rows[start..];

@@ -8,8 +8,7 @@ use serde_json::{Value, json};
 use super::{LoadError, assert_error, corners, face_normals, load_files};
 use crate::scene::Model;
 
-/// Four corners of a unit square in the plane z = 0, their normals, and the indices of its two triangles as u8, u16,
-/// u32.
+/// The corners and normals of a unit square, and the indices of two triangles as u8, u16 and u32.
 fn data() -> Vec<u8> {
     let mut bytes = Vec::new();
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0_f32]];
@@ -24,7 +23,7 @@ fn data() -> Vec<u8> {
     bytes
 }
 
-/// The square at one node, its data in `a.bin`.
+/// The square at one node. The data are in `a.bin`.
 fn document() -> Value {
     let view = |offset, length| json!({"buffer": 0, "byteOffset": offset, "byteLength": length});
     let accessor = |view, component, kind, count| json!({"bufferView": view, "componentType": component, "type": kind, "count": count, "min": [0, 0, 0], "max": [1, 1, 0]});
@@ -42,7 +41,7 @@ fn document() -> Value {
     })
 }
 
-/// The square with other values in some places. A pointer without a slash in front is one in the primitive.
+/// A pointer without a leading slash is relative to the primitive.
 fn changed(changes: &[(&str, Value)]) -> Vec<u8> {
     let mut document = document();
     for (pointer, value) in changes {
@@ -58,7 +57,6 @@ fn changed(changes: &[(&str, Value)]) -> Vec<u8> {
     document.to_string().into_bytes()
 }
 
-/// A document, with its data beside it.
 fn loaded(document: &[u8]) -> Result<Model, LoadError> {
     load_files(&[("a.gltf", document), ("a.bin", &data())])
 }
@@ -87,7 +85,6 @@ pub(super) fn binary() -> Vec<u8> {
     bytes
 }
 
-/// Whole documents: the square, with a skin, and with instances.
 pub(super) fn texts() -> [Vec<u8>; 3] {
     let uri = format!("data:application/octet-stream;base64,{}", base64::encode(data()));
     let text =
@@ -150,7 +147,7 @@ fn textures_and_morph_targets_are_reported() {
 
 #[test]
 fn transforms_accumulate_and_mirrors_turn_the_winding() {
-    // Half a turn about z after a shift, times a mirror with a scale: (x, y, z) -> (1 + 2x, -y, 3z).
+    // The transforms map (x, y, z) to (1 + 2x, -y, 3z).
     let child = json!({"mesh": 0, "matrix": [-2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 3, 0, 0, 0, 0, 1]});
     let parent = json!({"children": [0], "translation": [1, 0, 0], "rotation": [0, 0, 1, 0]});
     let model = gltf(&[("/nodes/0", child), ("/nodes/-", parent), ("/scenes/0/nodes", json!([1]))]);
@@ -163,7 +160,7 @@ fn transforms_accumulate_and_mirrors_turn_the_winding() {
 
 #[test]
 fn normals_go_by_the_inverse_transpose() {
-    // Tilt the square to the plane z = x, then stretch it along x: its normal (-1, 0, 1) becomes (-1, 0, 4).
+    // Tilt the square to the plane z = x, then stretch it along x. The normal (-1, 0, 1) becomes (-1, 0, 4).
     let tilt = json!({"mesh": 0, "matrix": [1, 0, 1, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1]});
     let stretch = json!({"children": [0], "scale": [4, 1, 1]});
     for mirror in [1.0, -1.0] {
@@ -205,7 +202,7 @@ fn without_a_default_scene_all_roots_are_shown() {
 #[test]
 fn sparse_accessors_with_and_without_a_base() {
     let sparse = |indices: Value| json!({"count": 2, "indices": {"bufferView": 2, "byteOffset": indices, "componentType": 5121}, "values": {"bufferView": 0, "byteOffset": 24}});
-    // Indices 0 and 1 take the third and fourth corner.
+    // Elements 0 and 1 become the third and fourth corner.
     let model = gltf(&[("/accessors/0/sparse", sparse(0.into()))]);
     assert_eq!(model.positions[..3], [Vec3::new(1.0, 1.0, 0.0), Vec3::Y, Vec3::new(1.0, 1.0, 0.0)]);
     let bare = json!({"componentType": 5126, "type": "VEC3", "count": 4, "sparse": sparse(1.into())});

@@ -1,4 +1,4 @@
-//! Damaged files: for any content, the result is a model or an error of one line.
+//! Damaged files must give a model or an error of one line.
 
 use std::time::{Duration, Instant};
 
@@ -15,7 +15,6 @@ const OBJ: &str = "mtllib a.mtl\no a\nv 0 0 0\nv 1 0 0\nv 1 1 0 1\nv 0 1 -0.5e0\
 const MTL: &str =
     "newmtl red\nKa 0.1 0 0\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\nmap_Kd red.png\nillum 2\nnewmtl blue\nKd 0 0 1\n";
 
-/// Damage to a file: random bytes, and words that parsers are known to mishandle.
 fn patch() -> impl Strategy<Value = Vec<u8>> {
     const NUMBERS: &[&str] = &["0", "-1", "9", "1e999", "4294967295", "-9223372036854775808", "99999999999999999999"];
     const SIGNS: &[&str] = &["", "/", "\n", " ", "\\\n", "\"", "[", "}", "\0", "\u{ff}\u{ff}", "null", "nan"];
@@ -28,7 +27,7 @@ fn patch() -> impl Strategy<Value = Vec<u8>> {
     ]
 }
 
-/// A change of a file: of its bytes, or of its pieces, which are words and the signs between them.
+/// A change of bytes, or of pieces. A piece is a word with the separator after it.
 #[derive(Clone, Debug)]
 enum Damage {
     Cut(Index),
@@ -55,7 +54,7 @@ fn damaged(file: &[u8], damages: &[Damage]) -> Vec<u8> {
     let mut file = file.to_vec();
     for damage in damages {
         let pieces: Vec<&[u8]> = file.split_inclusive(|byte| b" \n,:/{}[]".contains(byte)).collect();
-        // Neighbours: most of the file stays.
+        // The range covers few pieces: most of the file stays.
         let range = |[start, length]: &[Index; 2]| {
             let start = start.index(pieces.len() + 1);
             start..(start + 1 + length.index(8)).min(pieces.len()).max(start)
@@ -103,10 +102,9 @@ fn assert_whole(files: &[(&str, &[u8])]) {
     }
 }
 
-/// Files that belong together, the first of them to be loaded.
+/// The test loads the first file.
 type Files = Vec<(&'static str, Vec<u8>)>;
 
-/// Loads as many damaged files of each format, always the same.
 fn assert_damaged_files_are_safe(cases: u32) {
     let [gltf, skin, instances] = gltf::texts();
     let formats: [Files; 8] = [

@@ -7,7 +7,6 @@ fn obj(text: &str) -> Model {
     load_files(&[("a.obj", text.as_bytes())]).unwrap()
 }
 
-/// The text after a line `mtllib a.mtl`, with this library.
 fn with_library(text: &str, library: &[u8]) -> Model {
     let text = format!("mtllib a.mtl # colours\n{text}");
     load_files(&[("a.obj", text.as_bytes()), ("a.mtl", library)]).unwrap()
@@ -46,7 +45,6 @@ fn corners_have_normals_or_the_face_is_flat() {
     let model = obj(&format!("{SQUARE}vt 0 0\nvn 0 0 1\nvn 0 1 0\nf 1//1 2//2 3//-1\nf 1/1/1 2/1/1 3/1\nf 1 2 3\n"));
     assert_eq!(model.normal_indices, [[0, 1, 1], [Model::FLAT; 3], [Model::FLAT; 3]]);
     assert_eq!(model.normals, [Vec3::Z, Vec3::Y]);
-    // Normals of length zero are reported.
     let model =
         obj(&format!("{SQUARE}vn 0 0 0\nvn nan 0 1\nvn 0 0 2\nf 1//1 2//3 3//3\nf 1//2 2//3 3//3\nf 1//3 2//3 3//3\n"));
     assert_eq!(model.normal_indices, [[Model::FLAT; 3], [Model::FLAT; 3], [2; 3]]);
@@ -81,16 +79,15 @@ fn a_library_is_read_once_and_notes_are_few() {
     assert_eq!(with_library(&text, b"newmtl a\nKd x\n").notes.len(), 1);
     let notes = obj(&(lines(1000, "mtllib b#.mtl\n") + triangle)).notes;
     assert!(notes.len() == 13 && notes[12].ends_with("more notes on this file"), "{notes:?}");
-    // A line names several files.
     assert_eq!(obj(&format!("mtllib a.mtl b.mtl\n{triangle}")).notes.len(), 3);
     let outside = obj(&format!("mtllib ../a.mtl\nmtllib /etc/hosts\n{triangle}")).notes;
     assert!(outside[..2].iter().all(|note| note.contains("outside the folder")), "{outside:?}");
-    // The later of two materials with one name counts, whole.
+    // A later material replaces all values of an earlier material with the same name.
     let twice = b"newmtl a\nKd 1 0 0\nKs 1 1 1\nmap_Kd a.png\nnewmtl a\nKd 0 1 0\n";
     let model = with_library(triangle, twice);
     assert_eq!(model.materials, [Material { diffuse: Vec3::Y, ..Material::named("a") }]);
     assert!(model.notes.is_empty(), "{:?}", model.notes);
-    // Notes that stand for many occurrences follow all others.
+    // The limit of notes does not remove the note about textures.
     let textured = format!("newmtl a\n{}map_Kd a.png\n", lines(20, "Kd #x\n"));
     let notes = with_library(triangle, textured.as_bytes()).notes;
     assert!(notes.iter().any(|note| note.starts_with("1 material with a texture")), "{notes:?}");
@@ -154,16 +151,16 @@ fn malformed_files_are_refused_with_their_line() {
         assert_refused("a.obj", text.as_bytes(), &words);
     }
     assert_refused("a.obj", b"v 0 0 \xff\xfe\n", &["line 1:", "three finite numbers"]);
-    // In a name a stray byte does no harm.
+    // A name may contain bytes that are not UTF-8.
     assert!(load_files(&[("a.obj", b"# caf\xe9\nv 0 0 0\nusemtl \xe9\nf 1 1 1\n")]).is_ok());
 }
 
-/// Each of these is wrong, refused or a panic in tobj itself.
+/// Without the filter, tobj would misread, reject or panic on each of these files.
 #[test]
 fn what_tobj_misreads_is_read() {
     let plain = obj(&format!("{SQUARE}f 1 2 3\n"));
     for statement in [
-        // Numbers beside the three are neither divisors nor colours; tobj wants three colours for all vertices or none.
+        // A fourth number is not a divisor, and further numbers are not colours.
         "v 1 1 0 1",
         "v 1 1 0 0.5 0.5 0.5",
         "v 1 1 0 0.5 0.5 0.5 1",
@@ -185,7 +182,7 @@ fn what_tobj_misreads_is_read() {
     assert_eq!(model.positions[..2], [Vec3::X * 2.0, Vec3::Y * 2.0]);
     assert_eq!(model.notes[0], "3 weights w other than 1 in statements `v`: ignored");
 
-    // It panics on these normals.
+    // tobj panics on these normals.
     for (normal, words) in [
         ("-4", "normal index -4 precedes the first of the 3"),
         ("6148914691236517206", "normal 6148914691236517206 exceeds the limit of a mesh"),
@@ -194,7 +191,7 @@ fn what_tobj_misreads_is_read() {
         let text = format!("{SQUARE}{}f 1//1 2//{normal} 3//1\n", "vn 0 0 1\n".repeat(3));
         assert_refused("a.obj", text.as_bytes(), &["line 9:", words]);
     }
-    // It finds fewer or more words than there are.
+    // tobj splits these words differently.
     for text in ["v 1 2\u{a0}3 4\n", "v \u{a0} \u{a0} \u{a0}\n", "v 1 2\u{b}3 4\n"] {
         assert_refused("a.obj", text.as_bytes(), &["line 1:", "three finite numbers are needed"]);
     }
@@ -203,7 +200,7 @@ fn what_tobj_misreads_is_read() {
     assert_refused("a.obj", face((1 << 20) + 1).as_bytes(), &["line 2:", "more than 1048576 corners"]);
 }
 
-/// tobj numbers the vertices of groups and of its models again, and vertices without a face not at all.
+/// tobj numbers the vertices of each group and model again, and drops unused vertices.
 #[test]
 fn vertices_are_the_same_in_all_parts_of_a_large_file() {
     const SIDE: u32 = 200;
@@ -252,7 +249,7 @@ fn what_tobj_misreads_in_a_library_is_read() {
         let model = read(mtl.as_bytes());
         assert_eq!((&model.materials[..], &model.notes[..]), (&[red.clone()][..], &[][..]), "{mtl:?}");
     }
-    // One bad line is noted, the others count; on some of these tobj panics.
+    // A bad line gives a note, and all other lines count. tobj panics on some of the bad lines.
     let bad_colours = ["Ka", "Ka 0.5 0.5", "Ka x", "Ka 0 0 nan", "Ka 1e999", "Ka \u{a0} \u{a0} \u{a0}"];
     for bad in bad_colours.into_iter().chain(["Ks spectral a.rfl", "Ns", "Ns inf"]) {
         let Model { materials, notes, .. } =
@@ -261,13 +258,13 @@ fn what_tobj_misreads_in_a_library_is_read() {
         assert!(notes.len() == 1 && notes[0].contains("line 2: `"), "{notes:?}");
     }
     assert_eq!(colours(&read(b"newmtl a\nKd 0.5\nNs -1\nKe \xff\n")), [Vec3::splat(0.5)]);
-    // A `#` without a space is a part of the name.
+    // A `#` begins a comment only between spaces.
     let text = format!("{SQUARE}usemtl Material #2\nf 1 2 3\nusemtl Material #3\nf 1 2 3\n");
     let model = with_library(&text, b"newmtl Material #2\nKd 1 0 0\nnewmtl Material #3\nKd 0 1 0\n");
     assert_eq!(colours(&model), [Vec3::X, Vec3::Y]);
 }
 
-/// Names are bytes: two that are no text stay two, and a file is opened by the bytes of its name.
+/// Names are bytes. Two different names that are not UTF-8 stay different.
 #[test]
 #[cfg(target_os = "linux")]
 fn names_need_not_be_text() {

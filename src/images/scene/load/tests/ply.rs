@@ -3,7 +3,7 @@ use glam::Vec3;
 use super::{assert_refused, face_normals, load_files};
 use crate::scene::Model;
 
-/// A square and a triangle, one vertex unused, with more properties and elements than a mesh needs.
+/// A square and a triangle. One vertex, the edge and some properties are not needed.
 pub(super) const ASCII: &str = "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 5\nproperty float x\nproperty double y\n\
     property float z\nproperty uchar red\nproperty list uchar int tags\nelement face 2\nproperty uchar flags\n\
     property list uchar int vertex_indices\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n\
@@ -13,7 +13,7 @@ fn ply(bytes: &[u8]) -> Model {
     load_files(&[("a.ply", bytes)]).unwrap()
 }
 
-/// The same two faces with 64-bit coordinates, normals, and the given width of list lengths and corners.
+/// The faces of [`ASCII`], with 64-bit coordinates and normals. `length` and `corner` are types of PLY.
 pub(super) fn binary(big: bool, length: &str, corner: &str) -> Vec<u8> {
     let order = if big { "big" } else { "little" };
     let mut bytes = format!(
@@ -57,7 +57,6 @@ fn text_with_more_than_a_mesh() {
         ("no last line end", ASCII.trim_end().into()),
         ("a byte order mark", [b"\xef\xbb\xbf", ASCII.as_bytes()].concat()),
         ("a comment in Latin-1", latin),
-        // In text a length may exceed its type.
         ("a long list", ASCII.replace("2 7 8", &format!("300{}", " 7".repeat(300))).into()),
     ] {
         assert_eq!(ply(&file), model, "{what}");
@@ -92,7 +91,7 @@ fn binary_of_both_orders_and_all_integers() {
     }
 }
 
-/// Seven vertices and the given elements, whose rows are all numbers of the type `int`.
+/// `numbers` are the rows of `elements`, with the type `int`.
 fn with_vertices(elements: &str, numbers: &[i32]) -> Vec<u8> {
     let vertices = "element vertex 7\nproperty char x\nproperty char y\nproperty char z\n";
     let header = format!("ply\nformat binary_little_endian 1.0\n{vertices}{elements}end_header\n");
@@ -109,16 +108,16 @@ fn strips_begin_anew_at_minus_one_and_their_winding_alternates() {
         (strips(1), &[8, 0, 1, 2, 3, -1, 4, 5, 6][..], &[[0, 1, 2], [2, 1, 3], [4, 5, 6]][..], &[][..]),
         // The end of a row ends its strip.
         (strips(2), &[5, 0, 1, 2, 3, 4, 3, 4, 5, 6], &[[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 5, 6]], &[]),
-        // Both are drawn, in the order of the file.
+        // Strips and faces keep the order of the file.
         (strips(1) + face, &[3, 0, 1, 2, 3, 4, 5, 6], &[[0, 1, 2], [4, 5, 6]], &[]),
-        // Strips without a triangle are told, but not the nothing between two -1.
+        // A strip without a triangle gives a note, but the empty strip between two -1 gives none.
         (strips(1), &[9, -1, 3, 4, -1, -1, 0, 1, 2, -1], &[[0, 1, 2]], &[small]),
     ] {
         let model = ply(&with_vertices(&elements, numbers));
         assert_eq!(model.triangles, triangles, "{numbers:?}");
         assert_eq!(model.notes, notes, "{numbers:?}");
     }
-    // More entries than the corners of a face may be.
+    // A strip may be longer than a face.
     let long: Vec<i32> = [2_000_000].into_iter().chain((0..2_000_000).map(|i| i % 7)).collect();
     assert_eq!(ply(&with_vertices(&strips(1), &long)).triangles.len(), 1_999_998);
 
@@ -186,8 +185,6 @@ fn malformed_files_are_refused_by_name_and_number() {
         assert!(ASCII.contains(from), "{from}");
         assert_refused("a.ply", ASCII.replacen(from, to, 1).as_bytes(), &words);
     }
-    // The headers are right and the bodies are not: a list of 4 thousand million entries, a longer one than the file,
-    // one of -1, a NaN.
     let [first_vertex, first_list] = [36 + 5 * 38, 36];
     for (file, from_end, bytes, words) in [
         (binary(false, "uint", "int"), first_list, &[0xff; 4][..], ["face 0:", "4294967295 entries"]),

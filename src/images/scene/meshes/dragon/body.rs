@@ -29,12 +29,12 @@ const SPINE: [Vec4; 22] = [
     vec4(1.26, 2.44, 0.17, 0.18),
 ];
 
-/// The number of tube pieces from one point of [`SPINE`] to the next.
+/// The number of tube pieces between successive points of [`SPINE`].
 const PIECES: usize = 6;
 
 const AROUND: f32 = 16.0;
 
-/// Adds the body and returns the frame at the end of the neck.
+/// Returns the frame at the end of the neck.
 pub fn model(sdf: &mut Sdf) -> Frame {
     let tube = Tube::through(&SPINE, PIECES);
     let frames = tube.frames(12 * PIECES, Vec3::Y);
@@ -45,7 +45,6 @@ pub fn model(sdf: &mut Sdf) -> Frame {
     frames[frames.len() - 1]
 }
 
-/// Adds the body, a chain of cones. The height of the scales is subtracted from the distance to a cone.
 fn scaly_tube(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     sdf.group(Blend { displacement: 0.15, ..Blend::smooth(0.0) });
     let mut rows = 0.0;
@@ -70,7 +69,7 @@ fn scaly_tube(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     }
 }
 
-/// Height of the scales, 0 to 1, at `row` along the body. (`x`, `y`) is the direction from the axis; +y is the back.
+/// The height of the scales is from 0 to 1. (`x`, `y`) is the direction from the axis, and +y is the back.
 fn scales(row: f32, x: f32, y: f32) -> f32 {
     let turn = (libm::atan2(f64::from(x), f64::from(y)) / std::f64::consts::TAU) as f32;
     let belly = ((turn.abs() - 0.36) / 0.03).clamp(0.0, 1.0);
@@ -79,7 +78,7 @@ fn scales(row: f32, x: f32, y: f32) -> f32 {
     let part = row * 0.6 - (row * 0.6).floor();
     let plate = (1.0 - (2.0 * part - 1.0) * (2.0 * part - 1.0)).sqrt();
 
-    // Round scales elsewhere; each row is shifted by half a scale and overlaps the next row.
+    // Round scales. Each row is shifted by half a scale.
     let mut scale = 0.0f32;
     for step in -1..=1 {
         let line = row.floor() + step as f32;
@@ -95,7 +94,6 @@ fn scales(row: f32, x: f32, y: f32) -> f32 {
     scale * (1.0 - belly) + plate * belly
 }
 
-/// Spines along the back: long on the neck and the hump, short on the tail.
 fn crest(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     sdf.group(Blend::undisplaced(0.035));
     let mut since = 0.0;

@@ -1,10 +1,9 @@
-//! The head: open jaws with teeth and tongue, brows, eyes, horns, a frill, a beard and whiskers.
+//! The head of the dragon.
 
 use glam::{Vec3, vec4};
 
 use crate::scene::meshes::sdf::{Blend, Frame, Sdf};
 
-/// Adds the head at the end of the neck.
 pub fn model(sdf: &mut Sdf, neck: Frame) {
     let origin = neck.at(0.0, 0.01, 0.12);
     let head = Frame::looking(origin, Vec3::new(0.80, 0.04, 0.60), Vec3::Y);
@@ -26,12 +25,10 @@ fn skull(sdf: &mut Sdf, head: &Frame) {
 }
 
 fn jaws(sdf: &mut Sdf, head: &Frame) {
-    // The lower jaw hangs open. Above it, the mouth is hollow.
     sdf.group(Blend { displacement: 0.4, ..Blend::smooth(0.04) });
     sdf.cone(head.at(0.0, -0.10, 0.02), 0.12, head.at(0.0, -0.36, 0.36), 0.062);
     sdf.group(Blend::subtract(0.03)).cone(head.at(0.0, -0.12, 0.16), 0.075, head.at(0.0, -0.19, 0.58), 0.125);
 
-    // Lips.
     sdf.group(Blend::undisplaced(0.02));
     for side in [-1.0, 1.0] {
         let lip = [
@@ -105,7 +102,7 @@ fn frill(sdf: &mut Sdf, head: &Frame) {
             sdf.tube_in(head, &blade, 4);
         }
     }
-    // A mane on top of the head, towards the crest of the neck.
+    // A mane on top of the head.
     sdf.group(Blend::undisplaced(0.03));
     for (back, rise) in [(0.02, 0.14), (-0.1, 0.17), (-0.2, 0.16)] {
         sdf.cone(head.at(0.0, 0.16, back), 0.05, head.at(0.0, 0.2 + rise, back - 0.2), 0.013);

@@ -1,4 +1,4 @@
-//! A dragon: a coiled serpent on four legs. Its mesh replaces the scanned dragon, which may not be copied.
+//! A dragon mesh that replaces the scanned dragon, which may not be copied.
 
 mod body;
 mod head;
@@ -17,8 +17,8 @@ const BOUNDS: Aabb = Aabb { min: Vec3::new(-0.102, 0.0, -0.046), max: Vec3::new(
 
 const STEP: f32 = 0.0221;
 
-/// An evenly tessellated, closed dragon of 130,858 triangles with smooth normals, about 0.2 wide, standing on y = 0. It
-/// looks to +x and a little to +z. Its signed distance function is 20 times as large, like the dragon in the scene.
+/// A closed dragon with smooth normals that stands on y = 0 and looks to +x. The signed distance function is 20 times
+/// as large as the mesh.
 pub fn dragon() -> Model {
     let mut sdf = Sdf::new(0.012, pebbled);
     let spine = body::model(&mut sdf);

@@ -4,7 +4,6 @@ use glam::{Vec3, Vec4, vec4};
 
 use crate::scene::meshes::sdf::{Blend, Frame, Sdf, cosine, sine};
 
-/// Adds head, neck, arms, hands and torch.
 pub fn model(sdf: &mut Sdf) {
     let v = Vec3::new;
     sdf.group(Blend::smooth(0.3)).cone(v(0.0, 16.1, -0.05), 0.62, v(0.0, 17.5, 0.05), 0.46);
@@ -33,7 +32,7 @@ fn face(sdf: &mut Sdf, head: &Frame) {
     sdf.ellipsoid_in(head, [0.0, -0.575, 0.80], [0.20, 0.06, 0.08]);
 }
 
-/// Waved strands from the parting around the head to a knot at the back, and two locks on the shoulders.
+/// Waved strands from the parting to a knot at the back, and two locks on the shoulders.
 fn hair(sdf: &mut Sdf, head: &Frame) {
     sdf.group(Blend::smooth(0.05)).ellipsoid_in(head, [0.0, 0.26, -0.14], [0.83, 0.86, 0.86]);
     for side in [-1.0, 1.0] {
@@ -91,7 +90,7 @@ fn raised_arm(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.1)).cone(wrist, 0.25, v(-2.93, 19.5, 0.92), 0.34);
     grip(sdf, v(-2.92, 19.62, 1.06), 0.22);
 
-    // The sleeve: rings of cloth pushed together on the upper arm, and a corner that hangs down.
+    // The sleeve: rings of cloth on the upper arm, and a corner that hangs down.
     sdf.group(Blend::smooth(0.07));
     for i in 0..5 {
         let t = 0.18 + 0.14 * i as f32;

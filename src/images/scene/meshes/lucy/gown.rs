@@ -1,4 +1,4 @@
-//! The gown: a body of elliptic sections with folds, an overfold, a belt, a sash, and cloth that hangs from the arm.
+//! The statue's gown: body, folds, overfold, belt, sash and hanging cloth.
 
 use glam::{Vec3, vec4};
 
@@ -23,7 +23,6 @@ const BODY: [[f32; 5]; 12] = [
     [16.7, 0.75, 0.50, 0.0, -0.05],
 ];
 
-/// Adds the gown.
 pub fn model(sdf: &mut Sdf) {
     let middle = Vec3::new(0.0, 9.0, 0.0);
     sdf.group(Blend::smooth(0.0)).primitive(middle, 8.6, |p| {
@@ -42,7 +41,8 @@ fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Distance to the side of the body, widened by `wider`, and the angle around the body: 0 in front, growing to +x.
+/// Returns the distance to the body, widened by `wider`, and the angle around the body in radians. The angle is 0 at +z
+/// and grows towards +x.
 fn section_distance(p: Vec3, wider: f32) -> (f32, f32) {
     let i = BODY.iter().rposition(|section| section[0] <= p.y).unwrap_or(0).min(BODY.len() - 2);
     let (low, high) = (&BODY[i], &BODY[i + 1]);
@@ -59,12 +59,10 @@ fn capped(side: f32, y: f32, low: f32, high: f32) -> f32 {
     side.max(low - y).max(y - high)
 }
 
-/// Round ridges with sharp valleys between them: values from 0 to 1.
 fn pleat(phase: f32) -> f32 {
     sine(phase).abs()
 }
 
-/// Height of the folds: long pleats that fan out downwards. They are shallow at the hips and at the bent knee.
 fn folds(p: Vec3, turn: f32) -> f32 {
     let drop = 1.0 - smoothstep(2.0, 12.0, p.y);
     let wander = noise::smooth(Vec3::new(turn * 1.3, p.y * 0.16, 0.0), 3);
@@ -76,7 +74,6 @@ fn folds(p: Vec3, turn: f32) -> f32 {
     let depth = 0.07 + 0.46 * drop;
     let long = depth * tight * (0.62 * wide + 0.38 * narrow * (0.6 + 0.4 * wander) - 0.35);
 
-    // Above the belt, the cloth hangs from both shoulders in folds that sag towards the middle.
     let breast = smoothstep(12.8, 13.6, p.y);
     let sag = pleat(3.4 * (p.y - 0.55 * p.x.abs() - 0.3 * p.x * p.x) + 0.8 * fine_wander);
     long * (1.0 - breast) + breast * 0.09 * sag * (1.0 - smoothstep(15.4, 16.0, p.y))
@@ -103,7 +100,7 @@ fn legs(sdf: &mut Sdf) {
     }
 }
 
-/// Adds the belt, and the cloth that falls over the belt and has a waving hem.
+/// Adds the overfold and the belt.
 fn overfold(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.05)).primitive(Vec3::new(0.0, 11.0, 0.0), 3.2, |p| {
         let flare = 0.10 + 0.09 * (12.6 - p.y).max(0.0);
@@ -137,7 +134,6 @@ fn bodice(sdf: &mut Sdf) {
     sdf.tube(&neckline, 5);
 }
 
-/// Four strands of cloth from the left shoulder across the breast to the right hip and around the back.
 fn sash(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.06));
     for i in 0..4 {
@@ -158,7 +154,6 @@ fn sash(sdf: &mut Sdf) {
     }
 }
 
-/// Pleats that hang from the left forearm. Each is a little shorter than the pleat before.
 fn hanging_cloth(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.14));
     for i in 0..7 {

@@ -18,8 +18,7 @@ const BOUNDS: Aabb = Aabb { min: Vec3::new(-6.74, 0.0, -3.87), max: Vec3::new(6.
 
 const STEP: f32 = 0.0835;
 
-/// An evenly tessellated, closed statue of 275,690 triangles with smooth normals, 23 high, standing on y = 0 and
-/// looking to +z.
+/// A closed statue that stands on y = 0 and looks to +z.
 pub fn lucy() -> Model {
     let mut sdf = Sdf::plain();
     gown::model(&mut sdf);

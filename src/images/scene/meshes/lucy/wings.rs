@@ -1,18 +1,16 @@
-//! Two wings of separate feathers: flat blades with a shaft and barbs, in overlapping rows on an arm.
+//! Two wings of separate, overlapping feathers.
 
 use glam::Vec3;
 
 use crate::scene::meshes::sdf::{Blend, Frame, RoundCone, Sdf, rounded_intersection};
 
-/// Adds both wings.
 pub fn model(sdf: &mut Sdf) {
     for side in [-1.0, 1.0] {
         wing(sdf, side);
     }
 }
 
-/// Points of the wing's arm, from the shoulder blade past the wrist to the end of the hand: distance from the middle,
-/// height, radius.
+/// Points of the wing's arm, from the shoulder blade to the hand: distance from the middle, height, radius.
 const ARM: [[f32; 3]; 6] = [
     [0.45, 14.2, 0.5],
     [1.5, 15.6, 0.52],
@@ -22,11 +20,11 @@ const ARM: [[f32; 3]; 6] = [
     [5.75, 17.3, 0.22],
 ];
 
-/// Tips of the long feathers in the plane of the wing, from the innermost to the outermost.
+/// Tips of the long feathers, from the innermost to the outermost: distance from the middle, height.
 const TIPS: [[f32; 2]; 9] =
     [[0.9, 10.9], [1.6, 9.6], [2.4, 8.4], [3.2, 7.5], [4.1, 6.9], [5.0, 6.9], [5.8, 7.8], [6.4, 9.4], [6.85, 11.4]];
 
-/// A point of the wing, moved forward by `front`. The wing sweeps back from the body and bends forward at the tip.
+/// `front` moves the point towards +z.
 fn place(side: f32, out: f32, up: f32, front: f32) -> Vec3 {
     let back = 1.05 + 0.62 * out - 0.028 * out * out + 0.05 * (15.0 - up).max(0.0) * 0.6;
     Vec3::new(side * out, up, front - back)
@@ -43,7 +41,7 @@ fn wing(sdf: &mut Sdf, side: f32) {
     let arm = ARM.map(|[out, up, radius]| place(side, out, up, 0.05).extend(radius));
     sdf.tube(&arm, 5);
 
-    // Rows from long to short: number of feathers, relative length, half width, half thickness.
+    // `wide` is half the width, and `thick` is half the thickness.
     for (count, length, wide, thick) in [(12, 1.0, 0.46, 0.07), (11, 0.56, 0.46, 0.19), (12, 0.31, 0.42, 0.30)] {
         sdf.group(Blend::smooth(0.03));
         for i in 0..count {
@@ -55,7 +53,6 @@ fn wing(sdf: &mut Sdf, side: f32) {
             feather(sdf, side, root, tip, wide, thick);
         }
     }
-    // The smallest feathers cover the arm like scales.
     sdf.group(Blend::smooth(0.04));
     for row in [0.0, 1.0] {
         for i in 0..15 {
@@ -68,7 +65,7 @@ fn wing(sdf: &mut Sdf, side: f32) {
     }
 }
 
-/// A blade from `root` to `tip`. It is turned a little about its shaft, so neighbouring feathers overlap.
+/// The blade is turned about its shaft, so neighbouring feathers overlap.
 fn feather(sdf: &mut Sdf, side: f32, root: Vec3, tip: Vec3, wide: f32, thick: f32) {
     let frame = Frame::looking(root, tip - root, Vec3::new(0.42 * side, 0.0, 1.0));
     let length = root.distance(tip);

@@ -1,4 +1,4 @@
-//! Samples a signed distance function on a cubic grid, and changes cells that the surface crosses in several pieces.
+//! Samples a signed distance function on a cubic grid.
 
 use glam::{UVec3, Vec3};
 use rayon::prelude::*;
@@ -6,10 +6,9 @@ use rayon::prelude::*;
 use super::{Active, Sdf};
 use crate::geometry::Aabb;
 
-/// Samples along an edge of a block. All samples of a block use the same list of primitives.
 const BLOCK: usize = 8;
 
-/// Distances at grid points; x varies fastest. Far from the surface, only the sign is right.
+/// Distances at grid points. Far from the surface, only the sign of a distance is correct.
 pub struct Grid {
     pub origin: Vec3,
     pub step: f32,
@@ -20,14 +19,13 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Samples `sdf` over `bounds`, extended by at least two steps on each side.
+    /// Samples `bounds`, extended by at least two steps on each side.
     pub fn sample(sdf: &Sdf, bounds: Aabb, step: f32) -> Self {
         let origin = bounds.min - Vec3::splat(2.0 * step);
         let cells = (bounds.extent() / step).ceil().as_uvec3() + UVec3::splat(4);
         let blocks = cells.to_array().map(|n| (n as usize + 1).div_ceil(BLOCK));
         let size = blocks.map(|n| n * BLOCK);
 
-        // Sample the layers of blocks in parallel.
         let mut values = vec![0.0; size[0] * size[1] * size[2]];
         let layer_size = size[0] * size[1] * BLOCK;
         let fill = |(z, layer): (usize, &mut [f32])| -> Vec<Active> {
@@ -46,14 +44,12 @@ impl Grid {
         self.origin + Vec3::from(at.map(|n| n as f32)) * self.step
     }
 
-    /// The primitives that can affect the surface near `p`.
     pub fn active(&self, p: Vec3) -> &Active {
         let at = ((p - self.origin) / self.step).max(Vec3::ZERO).as_uvec3().to_array();
         let [x, y, z] = [0, 1, 2].map(|i| (at[i] as usize / BLOCK).min(self.blocks[i] - 1));
         &self.active[(z * self.blocks[1] + y) * self.blocks[0] + x]
     }
 
-    /// A bit mask of the corners of a cell that are inside the solid.
     fn corners(&self, cell: [usize; 3]) -> u8 {
         (0..8).fold(0, |mask, i| mask | u8::from(self.values[self.index(corner(cell, i))] < 0.0) << i)
     }
@@ -87,19 +83,17 @@ impl Grid {
     }
 }
 
-/// Corner `i` of a cell: bits 0, 1 and 2 of `i` are added to x, y and z.
 pub fn corner([x, y, z]: [usize; 3], i: usize) -> [usize; 3] {
     [x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)]
 }
 
-/// Writes the samples of one block to `layer`, its layer of blocks, and returns the primitives near the block.
 fn fill_block(sdf: &Sdf, origin: Vec3, step: f32, block: [usize; 3], size: [usize; 3], layer: &mut [f32]) -> Active {
     let first = origin + Vec3::from(block.map(|b| (b * BLOCK) as f32)) * step;
     let half = 0.5 * (BLOCK - 1) as f32 * step;
     let radius = half * 1.733;
     let active = sdf.near(first + half, radius + 3.0 * step);
 
-    // If the centre is far from the surface, all samples of the block have the sign of the centre.
+    // A block far from the surface contains no change of sign.
     let middle = sdf.undisplaced_distance(&active, first + half).0;
     let far = middle.abs() > 2.0 * radius + 3.0 * sdf.highest;
     for z in 0..BLOCK {
@@ -117,7 +111,7 @@ fn fill_block(sdf: &Sdf, origin: Vec3, step: f32, block: [usize; 3], size: [usiz
 /// Whether the corners in `mask` are connected along the edges of a cube.
 fn connected(mask: u8) -> bool {
     let mut reached = mask & mask.wrapping_neg();
-    // Each round extends paths by one edge, and no path needs more than seven edges.
+    // Each round extends paths by one edge. No path needs more than seven edges.
     for _ in 0..8 {
         let neighbours = (0..8).filter(|c| reached >> c & 1 == 1).flat_map(|c| [1, 2, 4].map(|axis| 1 << (c ^ axis)));
         reached |= mask & neighbours.fold(0, |all, corner: u8| all | corner);

@@ -1,4 +1,4 @@
-//! Solids as signed distance functions: primitives with smooth union and subtraction, and a fine displacement.
+//! Solids as signed distance functions, built from primitives.
 //!
 //! Distances use only `f32` arithmetic, square roots and `libm`, so a solid is the same on every machine.
 //!
@@ -17,42 +17,36 @@ pub use split::split_to;
 #[cfg(test)]
 pub use surface_nets::pieces;
 
-/// A number for every position.
 type Field = Box<dyn Fn(Vec3) -> f32 + Send + Sync>;
 
-/// A distance larger than every distance in a solid.
 const FAR: f32 = 1e9;
 
 struct Primitive {
     centre: Vec3,
     radius: f32,
-    /// Signed distance to the surface, negative inside. It may be too small, but its gradient must not exceed about 1.
+    /// Signed distance to the surface, negative inside. The magnitude may be too small. The length of the gradient must
+    /// not exceed about 1.
     distance: Field,
 }
 
-/// The operation that joins a group of primitives to the groups before it.
 #[derive(Clone, Copy, Debug)]
 pub struct Blend {
     /// Width of the smooth minimum; 0 gives a sharp crease.
     pub smoothing: f32,
-    /// Subtracts the group instead of adding it.
     pub subtract: bool,
-    /// The displacement on the surface of the group is multiplied by this factor, 0 to 1.
+    /// Factor of the displacement on the group's surface, from 0 to 1.
     pub displacement: f32,
 }
 
 impl Blend {
-    /// A union with displacement.
     pub fn smooth(smoothing: f32) -> Self {
         Self { smoothing, subtract: false, displacement: 1.0 }
     }
 
-    /// A union without displacement, for example for eyes, teeth and claws.
     pub fn undisplaced(smoothing: f32) -> Self {
         Self { displacement: 0.0, ..Self::smooth(smoothing) }
     }
 
-    /// A subtraction with displacement.
     pub fn subtract(smoothing: f32) -> Self {
         Self { subtract: true, ..Self::smooth(smoothing) }
     }
@@ -63,36 +57,32 @@ struct Group {
     primitives: Vec<Primitive>,
 }
 
-/// A solid: a list of groups that are joined in order. The primitives of a group are joined by a plain union.
+/// A solid: a list of groups that are joined in order. The primitives of one group form a plain union.
 pub struct Sdf {
     groups: Vec<Group>,
-    /// Height added to the surface near a point, multiplied by [`Blend::displacement`].
     displacement: Field,
-    /// Largest magnitude of the displacement.
     highest: f32,
 }
 
-/// The primitives that can affect the surface in some region, as (group, primitive), ascending.
+/// Primitives that can affect the surface in a region, as (group, primitive) in ascending order.
 type Active = Vec<(u16, u16)>;
 
 impl Sdf {
-    /// The empty solid. `displacement` must stay within plus or minus `highest`.
+    /// `displacement` must stay within plus or minus `highest`.
     pub fn new(highest: f32, displacement: impl Fn(Vec3) -> f32 + Send + Sync + 'static) -> Self {
         Self { groups: Vec::new(), displacement: Box::new(displacement), highest }
     }
 
-    /// The empty solid without displacement.
     pub fn plain() -> Self {
         Self::new(0.0, |_| 0.0)
     }
 
-    /// Starts a group. The primitives that are added next are joined to the earlier groups by `blend`.
     pub fn group(&mut self, blend: Blend) -> &mut Self {
         self.groups.push(Group { blend, primitives: Vec::new() });
         self
     }
 
-    /// Adds a primitive to the last group. It must lie in the sphere of `radius` around `centre`.
+    /// The primitive must lie in the sphere of `radius` around `centre`.
     pub fn primitive(
         &mut self,
         centre: Vec3,
@@ -104,7 +94,6 @@ impl Sdf {
         self
     }
 
-    /// The primitives that can affect the surface within `radius` of `centre`.
     fn near(&self, centre: Vec3, radius: f32) -> Active {
         let mut active = Active::new();
         for (i, group) in (0..).zip(&self.groups) {
@@ -115,7 +104,6 @@ impl Sdf {
         active
     }
 
-    /// At `p`, the signed distance without displacement, and the factor of the displacement.
     fn undisplaced_distance(&self, active: &Active, p: Vec3) -> (f32, f32) {
         let (mut distance, mut displaced) = (FAR, 1.0);
         for members in active.chunk_by(|a, b| a.0 == b.0) {
@@ -123,7 +111,7 @@ impl Sdf {
             let Blend { smoothing, subtract, displacement } = group.blend;
             let sign = if subtract { -1.0 } else { 1.0 };
 
-            // Skip primitives farther than `bound`: they do not change the distance.
+            // Primitives farther than `bound` do not change the distance.
             let mut near = FAR;
             let mut bound = sign * distance + smoothing;
             for &(_, j) in members {
@@ -141,7 +129,6 @@ impl Sdf {
         (distance, displaced)
     }
 
-    /// Signed distance to the surface.
     fn distance(&self, active: &Active, p: Vec3) -> f32 {
         let (distance, displaced) = self.undisplaced_distance(active, p);
         if self.highest > 0.0 && displaced > 0.0 && distance.abs() < 3.0 * self.highest {
@@ -151,14 +138,13 @@ impl Sdf {
         }
     }
 
-    /// The unit gradient of the distance, by central differences over `step`.
     fn normal(&self, active: &Active, p: Vec3, step: f32) -> Vec3 {
         let along = |axis: Vec3| self.distance(active, p + axis * step) - self.distance(active, p - axis * step);
         Vec3::new(along(Vec3::X), along(Vec3::Y), along(Vec3::Z)).normalize_or(Vec3::Y)
     }
 }
 
-/// The smooth minimum of two distances with width `k`, and the weight of the second distance in it, 0 to 1.
+/// Returns the smooth minimum of `a` and `b`, and the weight of `b` from 0 to 1.
 fn smooth_minimum(a: f32, b: f32, k: f32) -> (f32, f32) {
     if k <= 0.0 || (a - b).abs() >= k {
         return if b < a { (b, 1.0) } else { (a, 0.0) };

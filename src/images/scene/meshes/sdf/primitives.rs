@@ -1,10 +1,10 @@
-//! Primitives (ellipsoids, round cones, tubes along splines), and frames that place and rotate primitives.
+//! Ellipsoids, round cones, tubes along splines, and frames that place primitives.
 
 use glam::{Vec3, Vec4};
 
 use super::Sdf;
 
-/// A coordinate frame: `right`, `up` and `ahead` are orthogonal unit vectors.
+/// `right`, `up` and `ahead` are orthogonal unit vectors.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     pub origin: Vec3,
@@ -16,19 +16,17 @@ pub struct Frame {
 impl Frame {
     pub const WORLD: Self = Self { origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y, ahead: Vec3::Z };
 
-    /// The frame at `origin` that looks `ahead`. Its up axis is as near to `up` as possible.
+    /// The up axis of the frame is as near to `up` as possible.
     pub fn looking(origin: Vec3, ahead: Vec3, up: Vec3) -> Self {
         let ahead = ahead.normalize();
         let right = up.cross(ahead).normalize();
         Self { origin, right, up: ahead.cross(right), ahead }
     }
 
-    /// From local (right, up, ahead) to world coordinates.
     pub fn at(&self, x: f32, y: f32, z: f32) -> Vec3 {
         self.origin + (self.right * x + self.up * y + self.ahead * z)
     }
 
-    /// From world coordinates to local (right, up, ahead).
     pub fn local(&self, p: Vec3) -> Vec3 {
         let q = p - self.origin;
         Vec3::new(q.dot(self.right), q.dot(self.up), q.dot(self.ahead))
@@ -42,7 +40,7 @@ pub struct RoundCone {
     pub b: Vec3,
     pub radius_a: f32,
     pub radius_b: f32,
-    /// Unit vector from `a` to `b`, and the distance of `a` and `b`. Both are 0 if one sphere contains the other.
+    /// `axis` and `length` are 0 if one sphere contains the other sphere.
     axis: Vec3,
     length: f32,
     /// Sine and cosine of half the opening angle.
@@ -64,13 +62,12 @@ impl RoundCone {
         Self { a, b, radius_a, radius_b, axis: (b - a) / length, length, sine, cosine }
     }
 
-    /// Exact signed distance, computed in the plane through the axis and `p`.
     pub fn distance(&self, p: Vec3) -> f32 {
         let q = p - self.a;
         let along = q.dot(self.axis);
         let off = (q.length_squared() - along * along).max(0.0).sqrt();
 
-        // The foot of the perpendicular from `p`, measured along the cone's side: 0 at `a`, `length * cosine` at `b`.
+        // `foot` is the position of the nearest point along the side of the cone.
         let foot = along * self.cosine - off * self.sine;
         if foot <= 0.0 {
             q.length() - self.radius_a
@@ -82,11 +79,11 @@ impl RoundCone {
     }
 }
 
-/// The points of a tube along a smooth curve. A point has x, y, z and the radius.
+/// Points (x, y, z, radius) along a smooth curve.
 pub struct Tube(pub Vec<Vec4>);
 
 impl Tube {
-    /// The Catmull-Rom curve through `knots`, with `steps` pieces from one knot to the next.
+    /// Catmull-Rom curve through `knots`, with `steps` pieces from one knot to the next.
     pub fn through(knots: &[Vec4], steps: usize) -> Self {
         let at = |i: usize| knots[i.min(knots.len() - 1)];
         let piece = |i: usize| {
@@ -101,12 +98,11 @@ impl Tube {
         self.0[i].truncate()
     }
 
-    /// Unit tangent at point `i`.
     pub fn tangent(&self, i: usize) -> Vec3 {
         (self.centre((i + 1).min(self.pieces())) - self.centre(i.saturating_sub(1))).normalize()
     }
 
-    /// One frame per point. Frames do not twist about the tube. The frame at point `start` has its up axis near `up`.
+    /// One frame per point, without twist about the tube. The frame at point `start` has its up axis near `up`.
     pub fn frames(&self, start: usize, up: Vec3) -> Vec<Frame> {
         let frame = |i: usize, up: Vec3| Frame::looking(self.centre(i), self.tangent(i), up);
         let mut frames = vec![frame(start, up); self.0.len()];
@@ -115,7 +111,6 @@ impl Tube {
         frames
     }
 
-    /// The piece between points `i` and `i + 1`.
     pub fn piece(&self, i: usize) -> RoundCone {
         RoundCone::new(self.centre(i), self.0[i].w, self.centre(i + 1), self.0[i + 1].w)
     }
@@ -135,12 +130,11 @@ pub fn sine(angle: f32) -> f32 {
     libm::sin(f64::from(angle)) as f32
 }
 
-/// Cosine of an angle in radians, the same on every machine.
 pub fn cosine(angle: f32) -> f32 {
     libm::cos(f64::from(angle)) as f32
 }
 
-/// Distance to the intersection of two solids, with a rounded edge. `u` and `v` are their distances plus `radius`.
+/// The edge is rounded. `u` and `v` are the distances to the two solids plus `radius`.
 pub fn rounded_intersection(u: f32, v: f32, radius: f32) -> f32 {
     let (out_u, out_v) = (u.max(0.0), v.max(0.0));
     (out_u * out_u + out_v * out_v).sqrt() + u.max(v).min(0.0) - radius
@@ -151,17 +145,16 @@ impl Sdf {
         self.primitive(centre, radius, move |p| p.distance(centre) - radius)
     }
 
-    /// Adds an ellipsoid along the world axes.
     pub fn ellipsoid(&mut self, centre: Vec3, radii: Vec3) -> &mut Self {
         self.ellipsoid_in(&Frame { origin: centre, ..Frame::WORLD }, Vec3::ZERO, radii)
     }
 
-    /// Adds an ellipsoid along the axes of `frame`; `centre` is in the coordinates of `frame`.
+    /// `centre` is in the coordinates of `frame`.
     pub fn ellipsoid_in(&mut self, frame: &Frame, centre: impl Into<Vec3>, radii: impl Into<Vec3>) -> &mut Self {
         let (centre, radii) = (centre.into(), radii.into());
         let frame = Frame { origin: frame.at(centre.x, centre.y, centre.z), ..*frame };
         self.primitive(frame.origin, radii.max_element(), move |p| {
-            // Exact on the surface, and to first order near the surface.
+            // The distance is correct to first order near the surface.
             let q = frame.local(p);
             let (a, b) = ((q / radii).length(), (q / (radii * radii)).length());
             if b < 1e-9 { -radii.min_element() } else { a * (a - 1.0) / b }
@@ -174,7 +167,6 @@ impl Sdf {
         self.primitive((a + b) * 0.5, radius, move |p| cone.distance(p))
     }
 
-    /// Adds a tube through `knots` (x, y, z, radius), with `steps` cones from one knot to the next.
     pub fn tube(&mut self, knots: &[Vec4], steps: usize) -> &mut Self {
         let tube = Tube::through(knots, steps);
         for i in 0..tube.pieces() {
@@ -184,7 +176,6 @@ impl Sdf {
         self
     }
 
-    /// Adds a tube through `knots` in the coordinates of `frame`.
     pub fn tube_in(&mut self, frame: &Frame, knots: &[Vec4], steps: usize) -> &mut Self {
         let outside = |knot: &Vec4| frame.at(knot.x, knot.y, knot.z).extend(knot.w);
         self.tube(&knots.iter().map(outside).collect::<Vec<_>>(), steps)

@@ -2,8 +2,7 @@
 
 use crate::scene::Model;
 
-/// Splits the longest edges at their middles until the closed mesh has exactly `count` triangles. Each split adds two
-/// triangles, so `count` must be even and at least the present number.
+/// The mesh must be closed.
 pub fn split_to(model: &mut Model, count: usize) {
     loop {
         let have = model.triangles.len();
@@ -15,9 +14,9 @@ pub fn split_to(model: &mut Model, count: usize) {
     }
 }
 
-/// Splits at most `limit` edges, the longest first, and at most one edge per triangle. Vertex numbers break ties.
+/// Splits at most one edge per triangle. Vertex numbers break ties.
 fn split_longest(model: &mut Model, limit: usize) {
-    // Find both triangles of every edge: sorting makes the two half-edges neighbours.
+    // Sorting makes the two half-edges of an edge neighbours.
     let mut halves = Vec::with_capacity(3 * model.triangles.len());
     for (t, &[a, b, c]) in (0..).zip(&model.triangles) {
         halves.extend([(a, b), (b, c), (c, a)].map(|(p, q)| (p.min(q), p.max(q), t)));

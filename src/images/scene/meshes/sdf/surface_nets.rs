@@ -1,4 +1,4 @@
-//! Converts signed distance functions to triangles: surface nets with relaxed vertices.
+//! Converts signed distance functions to triangles by surface nets.
 //!
 //! # References
 //! Gibson: Constrained elastic surface nets. 1998.
@@ -12,8 +12,7 @@ use crate::geometry::Aabb;
 use crate::scene::{Model, meshes::normals};
 
 impl Sdf {
-    /// The largest connected piece of the surface inside `bounds`: closed, with edges of about the length `step` and
-    /// one unit normal per vertex. `relax` is the number of relaxation rounds, which even out the triangles.
+    /// Returns the largest connected piece of the surface. The mesh is closed and has edges of about the length `step`.
     pub fn surface(&self, bounds: Aabb, step: f32, relax: usize) -> Model {
         let mut grid = Grid::sample(self, bounds, step);
         grid.simplify();
@@ -35,8 +34,6 @@ impl Sdf {
         largest_piece(Model { positions, triangles, normals, ..Model::default() })
     }
 
-    /// Moves the vertices of `model` onto the surface, and replaces the normals by normals of the surface. For a coarse
-    /// mesh, normals of the surface are better than normals computed from triangles.
     pub fn settle(&self, model: &mut Model, step: f32) {
         let settled = |&start: &Vec3| {
             let active = self.near(start, 2.0 * step);
@@ -51,7 +48,7 @@ impl Sdf {
     }
 }
 
-/// The connected piece of each vertex, named by the number of one vertex of the piece.
+/// The number of one vertex identifies a piece.
 pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertices as u32).collect();
     fn root(parent: &mut [u32], mut v: u32) -> u32 {
@@ -70,14 +67,13 @@ pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     (0..vertices as u32).map(|v| root(&mut parent, v)).collect()
 }
 
-/// Keeps only the piece with the most vertices. Other pieces are cavities in the solid and crumbs beside it.
+/// The discarded pieces are cavities in the solid and crumbs beside the solid.
 fn largest_piece(model: Model) -> Model {
     let pieces = pieces(model.positions.len(), &model.triangles);
     let mut sizes = vec![0u32; pieces.len()];
     pieces.iter().for_each(|&piece| sizes[piece as usize] += 1);
     let largest = (0..sizes.len()).rev().max_by_key(|&piece| sizes[piece]).unwrap_or(0) as u32;
 
-    // Renumber the vertices that stay.
     let mut number = vec![u32::MAX; pieces.len()];
     let mut kept = Model::default();
     for (v, _) in pieces.iter().enumerate().filter(|&(_, &piece)| piece == largest) {
@@ -90,7 +86,6 @@ fn largest_piece(model: Model) -> Model {
     kept
 }
 
-/// Makes one vertex in every cell that the surface crosses, and one quad for every grid edge that the surface crosses.
 fn net(grid: &Grid) -> (Vec<Vec3>, Vec<[u32; 4]>) {
     let cells = grid.cells();
     let positions = cells.par_iter().map(|&cell| middle(grid, cell)).collect();
@@ -138,8 +133,8 @@ fn middle(grid: &Grid, cell: [usize; 3]) -> Vec3 {
 
 /// Moves every vertex in its tangent plane towards the mean of its neighbours, then back onto the surface.
 fn relaxed(sdf: &Sdf, grid: &Grid, positions: &[Vec3], quads: &[[u32; 4]]) -> Vec<Vec3> {
-    // Sum normals, neighbours and the number of neighbours of each vertex. On a closed surface, quads contain every
-    // edge once in each direction, so the corners after a vertex in its quads are all its neighbours.
+    // On a closed surface, the quads contain every edge once in each direction. So the corners that follow a vertex in
+    // its quads are all neighbours of the vertex.
     let mut around = vec![(Vec3::ZERO, Vec3::ZERO, 0.0); positions.len()];
     for quad in quads {
         let [a, b, c, d] = quad.map(|i| positions[i as usize]);
@@ -158,7 +153,7 @@ fn relaxed(sdf: &Sdf, grid: &Grid, positions: &[Vec3], quads: &[[u32; 4]]) -> Ve
         let pull = (neighbours / count - p) * 0.4;
         let slid = p + pull - n * pull.dot(n);
 
-        // Return to the surface by one secant step along the normal, at most half a grid step long.
+        // One secant step along the normal returns to the surface.
         let active = grid.active(p);
         let here = sdf.distance(active, slid).clamp(-step, step);
         if here == 0.0 {

@@ -1,4 +1,4 @@
-//! One side of the court: two storeys of arches on columns, string course, balustrade, cornice with dentils.
+//! One side of the court: arches, columns, balustrade, string course and cornice.
 
 use super::{EAVES, Frame, UPPER, column::Column, material};
 use crate::scene::meshes::{
@@ -6,23 +6,20 @@ use crate::scene::meshes::{
     sdf::{cosine, sine},
 };
 
-/// Half the thickness of the arcade walls.
 const HALF_WALL: f32 = 26.0;
 
-/// One arch in its wall, in the coordinates of the frame that [`build`] receives.
+/// Coordinates are relative to the frame that [`build`] receives.
 struct Arch {
     middle: f32,
-    /// Half the width of the bay; `radius` is half the width of the opening.
     half_bay: f32,
     radius: f32,
-    /// The heights at which the arch begins and the wall above it ends.
+    /// The heights of the foot of the arch and of the top of the wall.
     heights: [f32; 2],
     half_wall: f32,
-    /// The number of segments of the half circle.
     pieces: usize,
 }
 
-/// Builds `bays` bays of width `bay`, from the origin of `frame` to the right. `frame` looks into the court.
+/// `frame` looks into the court. The bays extend to the right of the frame's origin.
 pub fn build(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     let length = bays as f32 * bay;
     let lower = Column { height: 306.0, radius: 29.0, sides: 20, leaves: 8, shaft: ("column_a", [0.95, 0.90, 0.82]) };
@@ -46,7 +43,6 @@ pub fn build(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
 }
 
 impl Arch {
-    /// A point of the half circle of `radius` about the middle of the arch, from step 0 on the left to the last step.
     fn on_circle(&self, step: usize, radius: f32) -> [f32; 2] {
         let angle = step as f32 / self.pieces as f32 * std::f32::consts::PI;
         [self.middle - radius * cosine(angle), self.heights[0] + radius * sine(angle)]
@@ -56,7 +52,6 @@ impl Arch {
         let (w, [spring, top]) = (self.half_wall, self.heights);
         let ends = [self.middle - self.half_bay, self.middle + self.half_bay];
 
-        // Both sides of the wall: a fan of quads above the arch, and a quad on each side of the arch.
         patches.of(&material("brick", [0.93, 0.84, 0.72]));
         for side in [1.0, -1.0] {
             let place = |u: f32, y: f32| frame.at(u, y, w * side);
@@ -70,13 +65,12 @@ impl Arch {
             }
         }
 
-        // The underside of the arch.
         patches.of(&material("arch", [1.0, 0.95, 0.86]));
         patches.patch([self.pieces, 1], false, Finish::Smooth, |column, row| {
             let [u, y] = self.on_circle(column, self.radius);
             frame.at(u, y, if row == 0 { -w } else { w })
         });
-        // Mouldings around the arch, on the wall that faces the court.
+        // Mouldings on the wall that faces the court.
         let size = self.radius / 72.0;
         let bands =
             [[0.0, 0.0], [0.0, 5.0], [6.0, 7.0], [8.0, 4.0], [14.0, 4.0], [16.0, 8.0], [21.0, 9.0], [23.0, 0.0]];
@@ -126,7 +120,6 @@ fn balustrade(patches: &mut Patches, frame: &Frame, from: f32, length: f32) {
     }
 }
 
-/// String course between the storeys, and the cornice under the eaves.
 fn courses(patches: &mut Patches, frame: &Frame, length: f32) {
     patches.of(&material("trim", [0.98, 0.93, 0.84]));
     let low = UPPER - 40.0;
@@ -157,7 +150,6 @@ fn courses(patches: &mut Patches, frame: &Frame, length: f32) {
     ];
     patches.moulding(frame, [0.0, length], &cornice.map(|[y, z]| [EAVES + y, z]));
 
-    // Dentils under the cornice and small consoles under the string course.
     let dentils = (length / 13.0) as usize;
     for i in 0..dentils {
         let u = length * (i as f32 + 0.25) / dentils as f32;

@@ -1,11 +1,10 @@
-//! Columns: plinth, turned base, shaft with entasis, and a capital with two rows of curling leaves and four volutes.
+//! Columns with a plinth, a turned base, a shaft, and a capital with leaves and volutes.
 
 use glam::Vec3;
 
 use super::{Frame, material};
 use crate::scene::meshes::patches::{Finish, Patches, turn};
 
-/// A column from its foot to the top of its abacus.
 pub struct Column {
     pub height: f32,
     /// Radius of the shaft at its foot.
@@ -17,7 +16,6 @@ pub struct Column {
 }
 
 impl Column {
-    /// Builds the column at the origin of `frame`.
     pub fn build(&self, patches: &mut Patches, frame: &Frame) {
         let r = self.radius;
         let foot = frame.origin;
@@ -38,7 +36,6 @@ impl Column {
         ];
         patches.lathe(foot, &base.map(|[x, y]| [x * r, y * r]), self.sides);
 
-        // The shaft tapers above its lower third. It has few, long triangles.
         let (low, high) = (1.03 * r, top - capital);
         let shaft = [[1.0, 0.0], [1.0, 0.33], [0.95, 0.7], [0.86, 1.0]];
         patches.of(&material(self.shaft.0, self.shaft.1));
@@ -69,7 +66,6 @@ impl Column {
         patches.block(frame, [-1.42 * r, top + 0.12 * r, -1.42 * r], [1.42 * r, self.height, 1.42 * r]);
     }
 
-    /// An acanthus leaf: it rises from the body of the capital, widens, and curls over at the tip.
     fn leaf(&self, patches: &mut Patches, foot: Vec3, number: usize) {
         let (sine, cosine) = turn(number, 2 * self.leaves);
         let (out, side) = (Vec3::new(sine, 0.0, cosine), Vec3::new(cosine, 0.0, -sine));
@@ -86,7 +82,6 @@ impl Column {
         patches.patch([columns, profile.len() - 1], false, Finish::Smooth, |column, row| {
             let [radius, up, wide] = profile[row];
             let across = 2.0 * column as f32 / columns as f32 - 1.0;
-            // The leaf bulges along its middle, and its margins are lobed.
             let lobe = if row % 2 == 1 { 1.0 } else { 0.8 };
             let bulge = 0.06 * (1.0 - across * across) - 0.03 * (column % 2) as f32;
             foot + (out * (radius + bulge) + side * (across * spread * wide * lobe) + Vec3::Y * up) * self.radius

@@ -1,4 +1,4 @@
-//! The building around the arcades: walks with vaults and beams, walls, floors, the outer building and the tiled roofs.
+//! The building around the arcades: walks, walls, floors and tiled roofs.
 
 use glam::Vec3;
 
@@ -7,7 +7,6 @@ use crate::scene::meshes::patches::{Finish, Patches, turn};
 
 const VAULT: usize = 10;
 
-/// The walks of the two storeys behind an arcade of `bays` bays, each `bay` wide.
 pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     let length = bays as f32 * bay;
     for i in 0..bays {
@@ -21,13 +20,12 @@ pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
             let u = u + bay * (beam as f32 + 0.5) / 3.0;
             patches.block(frame, [u - 9.0, EAVES - 40.0, -WALK], [u + 9.0, EAVES - 18.0, -16.0]);
         }
-        // A pilaster on the back wall behind every column.
         patches.of(&material("trim", [0.98, 0.93, 0.84]));
         patches.block(frame, [u - 20.0, 0.0, -WALK], [u + 20.0, 290.0, 14.0 - WALK]);
         patches.block(frame, [u - 25.0, 290.0, -WALK], [u + 25.0, 306.0, 19.0 - WALK]);
     }
 
-    // Back wall, floor and ceiling, two triangles each. The long sides include the corners of the building.
+    // The walks of the long sides include the corners of the building.
     let over = if bay == BAY { WALK } else { 0.0 };
     let (from, to) = (-over, length + over);
     patches.of(&material("brick", [0.93, 0.84, 0.72]));
@@ -40,7 +38,7 @@ pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     patches.quad([at(from, top, -WALK), at(to, top, -WALK), at(to, top, 16.0), at(from, top, 16.0)]);
 }
 
-/// A groin vault over one bay of the lower walk: the maximum of two crossing barrel vaults.
+/// A groin vault is the maximum of two crossing barrel vaults.
 fn vault(patches: &mut Patches, frame: &Frame, from: f32, bay: f32) {
     patches.of(&material("ceiling", [0.95, 0.90, 0.80]));
     let rise = |t: f32| 100.0 * (1.0 - (2.0 * t - 1.0) * (2.0 * t - 1.0)).max(0.0).sqrt();
@@ -71,12 +69,10 @@ fn doorway(patches: &mut Patches, frame: &Frame, middle: f32, floor: f32, size: 
     patches.block(frame, [left, top, back], [right, top + 16.0, back + 16.0]);
 }
 
-/// Court floor, ground outside, outer walls.
 pub fn grounds(patches: &mut Patches) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
 
-    // The floor of the court and of the walks: 16 rows of three large slabs.
     patches.of(&material("floor", [0.86, 0.80, 0.72]));
     let bays = 16;
     let (from, to) = (-half_length - WALK, half_length + WALK);
@@ -88,7 +84,7 @@ pub fn grounds(patches: &mut Patches) {
         }
     }
 
-    // The outer building: a ring of four blocks on a ground that is lower than the court.
+    // The outer building stands on ground lower than the court.
     patches.of(&material("brick", [0.93, 0.84, 0.72]));
     let (near, far) = (middle - half_width - WALK - 1.0, middle + half_width + WALK + 1.0);
     let (left, right) = (from - 1.0, to + 1.0);
@@ -101,10 +97,9 @@ pub fn grounds(patches: &mut Patches) {
     patches.quad([at(-1921.0, 1105.0), at(1800.0, 1105.0), at(1800.0, -1183.0), at(-1921.0, -1183.0)]);
 }
 
-/// One slope of a roof: both ends of its eaves, and the vector from the eaves to the ridge.
+/// Both ends of a roof's eaves, and the vector from the eaves to the ridge.
 type Slope = [Vec3; 3];
 
-/// Roofs around the court, with tiles until the building has `triangles` triangles. Panics if this is impossible.
 pub fn roofs(patches: &mut Patches, triangles: usize) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
@@ -145,11 +140,10 @@ pub fn roofs(patches: &mut Patches, triangles: usize) {
     assert!(left == 0, "{left} triangles are left when all roofs are tiled");
 }
 
-/// Number of rows of tiles from the eaves to the ridge; `TILE` is the width of a tile.
 const ROWS: usize = 11;
 const TILE: f32 = 44.0;
 
-/// A half-round tile. Its lower end is raised, because it lies on the tile of the row below.
+/// The lower end of a tile is raised, because it lies on the row below.
 fn tile(patches: &mut Patches, [from, to, up]: &Slope, [column, columns]: [usize; 2], row: usize, sides: usize) {
     let along = (to - from) / columns as f32;
     let step = up / ROWS as f32;

@@ -1,4 +1,4 @@
-//! Files that are rejected, each with the faulty part.
+//! Tests that invalid glTF files are rejected with the faulty part.
 
 use serde_json::{Value, json};
 
@@ -34,7 +34,6 @@ fn an_unsupported_version_is_reported_before_its_syntax() {
         let text = json!({"asset": asset, "meshes": {"a": {}}}).to_string();
         assert_refused("a.gltf", text.as_bytes(), &["asset", words]);
     }
-    // A list for an object, and nodes that are no list.
     for (text, words) in [
         (r#"[{"version": "2.0"}]"#, ["it is not a glTF 2.0 file", "not a JSON object"]),
         (r#"{"asset": {"version": "2.0"}, "nodes": {}}"#, ["it is not a glTF 2.0 file", "invalid type: map"]),
@@ -168,7 +167,7 @@ fn meshes_shown_too_often_are_refused_before_they_are_expanded() {
             [("/nodes", (0..times).map(|_| json!({"mesh": 0})).collect()), ("/scenes/0/nodes", (0..times).collect())];
         changed(&[changes, &nodes].concat())
     };
-    // 2^20 corners at 2^14 nodes.
+    // 2^20 triangles at 2^14 nodes.
     let bytes = vec![0; 4 << 20];
     let file = shown(
         1 << 14,
@@ -183,7 +182,7 @@ fn meshes_shown_too_often_are_refused_before_they_are_expanded() {
     let result = load_files(&[("a.gltf", &file), ("a.bin", &bytes)]);
     assert_error(result, "a.gltf", &["17179869184 triangles", "for files of"]);
 
-    // Empty primitives do not make the scene larger, but all of them would be visited.
+    // Empty primitives add no triangles, but take time.
     let mut primitives = vec![json!({"attributes": {"POSITION": 0}, "indices": 3})];
     primitives.resize(20_000, json!({"attributes": {"POSITION": 0}, "indices": 5}));
     let empty = json!({"componentType": 5121, "type": "SCALAR", "count": 0});

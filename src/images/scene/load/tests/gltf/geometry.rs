@@ -1,4 +1,4 @@
-//! Quantised positions, instances and skins; extensions.
+//! Tests quantised positions, instances, skins and extensions of glTF.
 
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
@@ -7,7 +7,7 @@ use super::super::{face_normals, load_files};
 use super::{changed, gltf, refused};
 use crate::scene::Model;
 
-/// The square with its corners as integers at 0 and `one`, `stride` bytes apart; as sparse elements if `is_sparse`.
+/// The square with the integer coordinates 0 and `one`. The corners are `stride` bytes apart.
 fn quantised(component: u32, one: [u8; 4], stride: usize, is_normalized: bool, is_sparse: bool) -> Model {
     let size = if component < 5122 { 1 } else { 2 };
     let mut bytes = vec![0; 4 * stride];
@@ -62,10 +62,9 @@ fn positions_are_integers_of_every_kind() {
     }
 }
 
-/// A change of the node, with accessors of instances: translations, rotations and scales.
+/// The accessors 5, 6 and 7 are translations, rotations and scales of instances.
 fn instances(node: Value, required: bool) -> Vec<(&'static str, Value)> {
     let translations = [0.0, 0.0, 0.0, 0.0, 0.0, 5.0];
-    // None, and half a turn about z.
     let rotations = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0];
     let scales = [1.0, 1.0, 1.0, 2.0, -1.0, 1.0_f32];
     let numbers = [&translations[..], &rotations, &scales].concat();
@@ -102,7 +101,7 @@ fn instances_are_expanded() {
         assert_eq!((model.positions[0], model.positions[4]), (Vec3::X * 7.0, Vec3::new(7.0, 0.0, 5.0)));
     }
     let all = gltf(&instanced_square());
-    // The corner (1, 1, 0), scaled and mirrored to (2, -1, 0), turned to (-2, 1, 0), shifted by the instance and the node.
+    // The corner (1, 1, 0) is scaled to (2, -1, 0), turned to (-2, 1, 0), and shifted by the instance and the node.
     let expected = Quat::from_xyzw(0.0, 0.0, 1.0, 0.0) * Vec3::new(2.0, -1.0, 0.0) + Vec3::new(7.0, 0.0, 5.0);
     assert_eq!(all.positions[6], expected);
     assert_eq!(all.triangles[2..], [[4, 6, 5], [4, 7, 6]], "a mirror turns the corners round");
@@ -117,7 +116,6 @@ fn instances_are_expanded() {
     }
 }
 
-/// The square with a skin of two joints: one at x = 100, and its child at y = 5.
 pub(super) fn skinned() -> Vec<(&'static str, Value)> {
     let matrix = |z: f32| [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, z, 1.0];
     let bytes: Vec<u8> = [matrix(-2.0), matrix(0.0)].concat().iter().flat_map(|c| c.to_le_bytes()).collect();

@@ -1,4 +1,4 @@
-//! Valid files that the crate alone would refuse.
+//! Tests valid glTF files that the crate `gltf` would reject.
 
 use serde_json::{Value, json};
 
@@ -49,7 +49,7 @@ fn marks_and_chunks_around_the_document_are_skipped() {
     file.extend(b"behind the end");
     assert_eq!(load_files(&[("a.glb", &file)]).unwrap(), gltf(&[]));
 
-    // Without a binary chunk, in whose place stands another one.
+    // Another chunk is in the place of the binary chunk.
     let json = changed(&[]);
     let mut file = b"glTF\x02\0\0\0".to_vec();
     file.extend((12 + 8 + json.len() as u32 + 12).to_le_bytes());
