@@ -1,4 +1,4 @@
-//! Benchmarks of builds on all threads of the machine: `cargo bench --bench build -- dragon`.
+//! Benchmarks that build acceleration structures on all threads of the machine: `cargo bench --bench build -- dragon`.
 
 mod common;
 

@@ -55,7 +55,7 @@ fn traverse(criterion: &mut Criterion) {
     }
 }
 
-/// Benchmarks of traversals of single rays and of packets: `cargo bench --bench traverse -- slices/lucy`.
+/// Compares traversals of single rays with traversals of packets: `cargo bench --bench traverse -- slices/lucy`.
 fn slices(criterion: &mut Criterion) {
     for name in common::SLICED {
         let scene = common::scene(name);

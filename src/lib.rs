@@ -1,12 +1,12 @@
 //! **sahara** (SAH And Ray Acceleration): benchmark and validate ray-tracing acceleration structures, and compare
 //! pictures with golden images.
 //!
-//! The README describes the command. This page is for users of the trees in a renderer, and for authors of a structure.
+//! The README describes the command. This page is for authors of renderers and for authors of structures.
 //!
 //! # The trees in a renderer
 //!
 //! The trees are a separate crate, [`sahara_core`], with five small dependencies. This crate re-exports the modules of
-//! `sahara_core` with the same names.
+//! `sahara_core` under the same names.
 //!
 #![doc = include_str!("WALK_THROUGH_1_STRUCTURE.md")]
 #![doc = "```"]
@@ -35,7 +35,7 @@ pub mod runner;
 pub mod study;
 pub mod validate;
 
-// Crates that a structure or study in your crate needs, in the versions that this crate uses.
+// Structures and studies in other crates should use these versions.
 pub use anyhow;
 pub use clap;
 pub use glam;

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 use sahara::measure::CountingAllocator;
 use sahara::registry::Registry;
 
-/// Counts the peak memory of builds.
+/// Measures the peak memory while a structure is built.
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
 

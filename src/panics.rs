@@ -1,4 +1,4 @@
-//! Catches panics of structures without printing them.
+//! Catches panics of structures. Caught panics are not printed.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -14,17 +14,19 @@ thread_local! {
 /// The number of running calls of [`caught`].
 static CATCHING: AtomicUsize = AtomicUsize::new(0);
 
-/// Messages of panics that are neither printed nor caught so far.
+/// Messages of panics that were not printed. A caught panic clears these messages.
 static HELD_BACK: Mutex<Vec<String>> = Mutex::new(vec![]);
 
 fn held_back() -> MutexGuard<'static, Vec<String>> {
     HELD_BACK.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Returns the result of `work`, or the payload of its panic. The caller must report the panic: it is not printed.
+/// Returns the result of `work`. If `work` panics, returns the payload of the panic.
 ///
-/// While `work` runs, panics of rayon threads are not printed: rayon passes them to the waiting thread. If no thread
-/// catches such a panic, [`uncaught`] returns its message.
+/// The panic is not printed. The caller must report the panic.
+///
+/// While `work` runs, no panic on a rayon thread is printed. If such a panic is not caught, [`uncaught`] returns the
+/// message.
 pub fn caught<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -45,7 +47,7 @@ pub fn caught<R>(work: impl FnOnce() -> R) -> thread::Result<R> {
     result
 }
 
-/// Takes the messages of the panics that were neither printed nor caught by [`caught`].
+/// Removes and returns the messages of panics that were neither printed nor caught.
 pub fn uncaught() -> Vec<String> {
     std::mem::take(&mut held_back())
 }

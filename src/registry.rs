@@ -21,7 +21,7 @@ pub use choice::{Choice, ChoiceError, RUNNER, is_named, plain_name};
 pub use entry::Entry;
 pub use keys::Key;
 
-/// The structures, in the order of tables, and the generators of scenes.
+/// The registered structures and scene generators.
 #[derive(Clone)]
 pub struct Registry {
     entries: Vec<Entry>,
@@ -36,10 +36,10 @@ impl Registry {
         Self { entries: vec![], generators: vec![] }
     }
 
-    /// Adds a generator of scenes, which commands name as `name:parameters`.
+    /// Adds a scene generator. On the command line, `name:parameters` selects a generated scene.
     ///
     /// # Panics
-    /// If the name is taken or empty, or has characters other than lower-case letters, digits and hyphens.
+    /// If `name` is empty or already taken. If `name` contains anything except lower-case letters, digits and hyphens.
     pub fn with_generator(mut self, name: &'static str, generate: Generate) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         assert!(!name.is_empty() && name.chars().all(plain), "the name {name:?}");
@@ -63,13 +63,13 @@ impl Registry {
     /// Adds a structure under `name`, with the default configuration `config`.
     ///
     /// # Panics
-    /// If `name` is empty or `all`, or contains `:`, `,`, `=` or white space. If `name` already has an entry with the
-    /// triangle test of `A`. If `config` serialises to anything other than a map of keys or null.
+    /// If `name` is empty or `all`. If `name` contains `:`, `,`, `=`, a space, a tab or a newline. If `name` already
+    /// has an entry with the triangle test of `A`. If `config` does not serialise to a JSON object or to null.
     pub fn with<A: Accel>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, |mesh, config| Ok(Box::new(A::build(mesh, config)?)))
     }
 
-    /// [`with`](Self::with) for structures that are compiled in `sahara-core`.
+    /// Adds a structure that is compiled in `sahara-core`.
     fn offering<A: Offered>(self, name: &str, config: A::Config) -> Self {
         self.entered::<A>(name, config, A::boxed)
     }
@@ -119,7 +119,7 @@ impl Registry {
     }
 
     /// Reads `NAME` or `NAME:key=value,..`. The key `test` chooses the triangle test. Without this key, the first entry
-    /// `NAME` is chosen.
+    /// with the name `NAME` is chosen.
     ///
     /// # Errors
     /// If the name, a key, a value or the triangle test is not accepted.
@@ -157,13 +157,13 @@ impl Registry {
         self.entries.iter().filter(|e| self.is_first(e)).map(|e| e.name.as_str()).collect()
     }
 
-    /// Whether the name selects this entry without the key `test`.
+    /// Whether `entry` is the first entry with its name.
     fn is_first(&self, entry: &Entry) -> bool {
         self.entries.iter().find(|e| e.name == entry.name).is_some_and(|e| std::ptr::eq(e, entry))
     }
 }
 
-/// An empty map also represents null, the serialised form of a configuration without fields.
+/// The registry stores a null configuration as an empty map.
 fn parse<A: Accel>(config: &Value) -> Result<A::Config, String> {
     serde_json::from_value(config.clone()).or_else(|error| match config {
         Value::Object(map) if map.is_empty() => serde_json::from_value(Value::Null).map_err(|_| error.to_string()),

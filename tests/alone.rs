@@ -1,11 +1,12 @@
-//! Runs a test in a separate process if it uses a property of the whole process.
+//! Runs a test in a separate process.
 
 use std::process::Command;
 
 const ALONE: &str = "SAHARA_TEST_ALONE";
 
-/// Returns true in the separate process. Otherwise runs the test `path` (`module::function`) in a separate process and
-/// returns false. Panics if the test fails there.
+/// Runs the test `path` (`module::function`) in a separate process. Panics if the test fails.
+///
+/// Returns true in the separate process, and false in the original process.
 pub fn alone(path: &str) -> bool {
     if std::env::var_os(ALONE).is_some() {
         return true;

@@ -1,4 +1,4 @@
-//! Checks structures of the registry on degenerate meshes and on scenes.
+//! Checks structures on degenerate meshes and on scenes.
 
 use std::fs;
 use std::path::Path;
@@ -23,8 +23,7 @@ sahara::conformance!(sah_kd_tight, Bvh8<MollerTrumbore>, Bvh8Config::new(Partiti
 sahara::conformance!(sah_hybrid, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Hybrid), lowest_id);
 sahara::conformance!(sah_bvh, Bvh8<MollerTrumbore>, Bvh8Config::new(Partition::Objects), lowest_id);
 
-/// Configurations that differ in their trees or traversals. The option `exit=first-leaf` is absent, because it is wrong
-/// by design.
+/// Configurations to check. The option `exit=first-leaf` is absent, because its hits are wrong by design.
 const OURS: [&str; 36] = [
     "brute-force:test=rt-triangle",
     "median-kd:leaf=1",
@@ -77,8 +76,7 @@ pub fn passes(outcome: Result<(), String>) {
 fn are_right(specs: &[&str], meshes: &[Named], count: usize) {
     let registry = Registry::builtin();
     let check = |spec: &&str| passes(answers(&subject(&registry.choose(spec).unwrap(), true), meshes, count));
-    // The checks wait for builds, which need the threads of rayon's pool. The checks must therefore run outside the
-    // pool.
+    // Run the checks outside rayon's pool, because builds need the threads of the pool.
     thread::scope(|scope| {
         specs.chunks(specs.len().div_ceil(2)).for_each(|half| drop(scope.spawn(|| half.iter().for_each(check))));
     });
@@ -109,8 +107,7 @@ fn our_trees_are_right_where_surfaces_coincide() {
     are_right(&TREES, &meshes, 12);
 }
 
-/// Checks only counts and shapes, because the baseline has wrong hits. Structures that deviate from the contract are
-/// left out, because `tests/peers.rs` tests them.
+/// Checks only counts and shapes, because obvhs has wrong hits.
 #[test]
 #[ignore = "a minute"]
 fn everything_offered_counts_and_has_a_possible_shape() {

@@ -1,4 +1,4 @@
-//! Checks the table in src/images/golden/GOLDEN.md, which lists the measures that detect each fault.
+//! Checks the table of faults and measures in src/images/golden/GOLDEN.md.
 
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ pub fn pictures() -> (DynamicImage, [(&'static str, DynamicImage); 6]) {
     brighter.iter_mut().for_each(|value| *value = value.saturating_add(1));
     let mut material = scene.clone();
     material.materials.iter_mut().for_each(|own| own.diffuse *= 0.98);
-    // Collapse a visible triangle in the middle of the picture to a point.
+    // Collapse the triangle at the middle pixel to a point.
     let tree = KdTree::<Exact>::build(&scene.mesh, &KdConfig::SAH).unwrap();
     let middle = SIZE[0] * SIZE[1] / 2 + SIZE[0] / 2;
     let ray = scene.primary_rays(SIZE, View::CENTRE, middle..middle + 1)[0];

@@ -1,4 +1,4 @@
-//! Tests downloads with a server on the loopback interface that misbehaves on request.
+//! Tests downloads from a local server. The path of a request selects the response.
 #![cfg(feature = "fetch")]
 
 use std::fs;
@@ -54,13 +54,13 @@ impl Server {
         DataFile { url, path: folder.join("mesh.obj"), sha256: hex(&bytes), bytes: Some(bytes.len() as u64) }
     }
 
-    /// The requests since the last call.
+    /// The requests since the previous call of this function.
     fn requests(&self) -> Vec<String> {
         std::mem::take(&mut self.requests.lock().unwrap())
     }
 }
 
-/// Paths at which the server stalls, in the body or in the head of the response.
+/// Paths at which the server stalls before the end of the response.
 const STALLS: [&str; 2] = ["/silent", "/headless"];
 
 fn hex(bytes: &[u8]) -> String {
@@ -78,7 +78,7 @@ fn answer(own: &str, path: &str) -> Vec<u8> {
     let whole = mesh();
     match path {
         "/mesh.obj" => response("200 OK", "", &whole),
-        // Announces the whole length, but sends half.
+        // The response ends after half of its announced length.
         "/cut" => response("200 OK", "", &whole)[..whole.len() / 2].to_vec(),
         "/wrong" => response("200 OK", "", &vec![b'#'; whole.len()]),
         "/long" => response("200 OK", "", &[&whole[..], b"more"].concat()),
@@ -148,7 +148,7 @@ fn what_is_there_with_other_contents_is_not_touched() {
     fs::write(&file.path, b"mine").unwrap();
     refused(&file, &client, &["other contents", "mesh.obj"]);
     assert_eq!(fs::read(&file.path).unwrap(), b"mine");
-    // The client cannot write below a regular file, and cannot read a folder in place of a file.
+    // A regular file cannot contain a file.
     refused(&DataFile { path: file.path.join("x"), ..file.clone() }, &client, &["cannot write"]);
     fs::remove_file(&file.path).unwrap();
     fs::create_dir(&file.path).unwrap();

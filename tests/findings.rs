@@ -1,6 +1,6 @@
 //! Tests that the baseline obvhs 0.4.0 has exactly the known defects.
 //!
-//! If a listed defect disappears, remove it from the list.
+//! If a defect in `FINDINGS` disappears, remove the defect from `FINDINGS`.
 
 use std::sync::Arc;
 
@@ -16,9 +16,9 @@ const BVH2: [&str; 2] = ["obvhs-bvh2", "obvhs-bvh2:test=moller-trumbore"];
 const CWBVH: [&str; 2] = ["obvhs-cwbvh", "obvhs-cwbvh:test=moller-trumbore"];
 const BOTH: [&str; 4] = [BVH2[0], BVH2[1], CWBVH[0], CWBVH[1]];
 
-/// One ray on which some structures return a wrong hit.
+/// One ray for which some structures return a wrong result.
 pub struct Finding {
-    /// The reason why these structures miss the hit.
+    /// The reason for the wrong result.
     pub cause: &'static str,
     pub structures: &'static [&'static str],
     pub mesh: &'static str,
@@ -81,7 +81,7 @@ pub fn compared(choice: &Choice, mesh_name: &str, ray: &str) -> Validation {
 }
 
 impl Finding {
-    /// Checks that `choice` has this error on the ray if, and only if, `structures` contains its `spec`.
+    /// Checks that `choice` has the error `kind` exactly if `structures` contains `spec`.
     #[track_caller]
     pub fn assert_on(&self, choice: &Choice, spec: &str) {
         let found = compared(choice, self.mesh, self.ray);
@@ -101,14 +101,14 @@ fn each_finding_is_still_there_and_ours_find_the_hit() {
     }
 }
 
-/// The degenerate meshes without two meshes on which every stratum has errors.
+/// Excludes two meshes on which every stratum has errors.
 pub fn meshes() -> Vec<Named> {
     let mut meshes = degenerate_meshes();
     meshes.retain(|(name, _)| name != "soup times 2^-30" && name != "exponential sequence");
     meshes
 }
 
-/// The name of a structure, and the strata on which it has no error on any mesh. It has errors on all other strata.
+/// The name of a structure, and all strata without an error.
 pub type CleanStrata = (&'static str, &'static [Stratum]);
 
 pub fn assert_clean(choice: &Choice, meshes: &[Named], (name, clean): CleanStrata) {
@@ -129,8 +129,6 @@ fn rays_without_a_named_cause_are_answered_rightly() {
     }
 }
 
-/// The triangle test causes these errors, so brute force has them too. On an edge, the sum of two rounded quotients can
-/// exceed 1. The test reads only the sign bit of a quotient, so a point at -0.0 is outside.
 #[test]
 fn rt_triangle_misses_hits_on_edges() {
     let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(glam::Vec3::from_array);

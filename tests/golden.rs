@@ -1,4 +1,4 @@
-//! Tests that the structures render the built-in scenes exactly as committed.
+//! Compares pictures of the built-in scenes with the golden images.
 
 use std::path::Path;
 
@@ -7,10 +7,9 @@ use sahara::golden::{GoldenError, TRIANGLE_TEST};
 use sahara::registry::{Choice, Registry};
 use sahara::request::{is_obvhs, known_defect};
 
-/// Structure, scene and number of different pixels. The test demands exactly these differences.
+/// Structure, scene and number of pixels that differ.
 ///
-/// Rays through the diagonals of the Cornell box meet edges between walls exactly. Such a ray hits two walls at one
-/// `t`, and obvhs may return either wall. obvhs-cwbvh also loses one hit, because its boxes have no margin.
+/// On an edge between two walls of the Cornell box, obvhs may return either wall.
 const FINDINGS: [(&str, &str, usize); 2] =
     [("obvhs-bvh2:test=exact", "Cornellbox", 103), ("obvhs-cwbvh:test=exact", "Cornellbox", 49)];
 
@@ -35,7 +34,7 @@ fn draw_as_committed(choices: &[Choice]) -> Vec<(String, String, usize)> {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
     let mut differing = vec![];
     for builtin in BUILTIN {
-        // `None` ignores real meshes on this machine, which would change the picture.
+        // `None`: generated meshes replace the downloaded meshes.
         let scene = builtin.scene(None).expect("built-in scenes are valid");
         let golden = builtin.golden();
         for choice in choices {
@@ -68,7 +67,7 @@ mod pictures {
         Rgb32FImage::from_fn(40, 30, |x, y| Rgb([x as f32 / 7.0, -0.1 * y as f32, 1e-9]))
     }
 
-    /// Sets the width and height in the bytes of a picture to values that need too much memory.
+    /// Writes a huge width and height into the bytes of a picture.
     type Enlarge = fn(&mut [u8]);
 
     fn of_each_format() -> [(DynamicImage, ImageFormat, Enlarge); 3] {
@@ -133,7 +132,7 @@ mod pictures {
             let mut huge = bytes.clone();
             enlarge(&mut huge);
             let refused = refusal(&huge);
-            // EXR also contains the number of chunks, which contradicts the changed size.
+            // The number of chunks in an EXR file contradicts the changed size.
             let why = if format == ImageFormat::OpenExr { "chunk count" } else { "512 MiB" };
             assert!(refused.contains(why), "{format:?}: {refused}");
         }

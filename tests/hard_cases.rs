@@ -1,7 +1,7 @@
 //! Runs the hard cases.
 //!
-//! The structures of this crate must lose no hit over any triangle test. Triangle tests in `f64` must be right on all
-//! ranked cases. `exact` must return the exact hits.
+//! A structure of this crate must cause no error beyond the errors of its triangle test. Triangle tests in `f64` must
+//! be right on the moderate and extreme cases. The triangle test `exact` must return the exact hits.
 
 use rayon::prelude::*;
 use sahara::measure::SystemClock;
@@ -10,14 +10,14 @@ use sahara::request::known_defect;
 use sahara::validate::hard_cases::{CaseTruth, Content, HardCase, Rank, catalogue, run};
 
 const RAYS: usize = 200;
-/// Rays per case of `LABORIOUS`. Each of these rays needs thousands of exact decisions.
+/// Rays per case in `LABORIOUS`.
 const FEW: usize = 10;
 const LABORIOUS: [&str; 3] = ["duplicates_20000", "fan_apex", "far_1e8"];
 
 /// Triangle tests whose hits are right except for the final rounding to `f32`.
 const IN_F64: [&str; 2] = ["moller-trumbore-f64", "edge-f64"];
 
-/// Structures with the traversal of `sah-hybrid`. They run only over the triangle tests in `FEW_TESTS`.
+/// Structures with the traversal of `sah-hybrid`. These structures run only with the triangle tests in `FEW_TESTS`.
 const SAME_TRAVERSAL: [&str; 3] = ["sah-kd-wide", "sah-kd-tight", "sah-bvh"];
 const FEW_TESTS: [&str; 2] = ["moller-trumbore", "exact"];
 
@@ -33,7 +33,7 @@ fn ours() -> Vec<Choice> {
     choices
 }
 
-/// `None` if the requirements at the top of this file are met.
+/// Returns a message if the structure violates a requirement at the top of this file.
 fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -> Option<String> {
     let test = choice.triangle_test();
     let ranked = matches!(case.rank, Rank::Moderate | Rank::Extreme);
@@ -48,8 +48,8 @@ fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -
     (is_wrong || !score.is_sound()).then(|| format!("{} on {}: {score:?}", choice.label, case.name))
 }
 
-/// Runs the cases with rays, or the properties if `of_rays` is false. `is_run` receives the index of the case and the
-/// index of the structure.
+/// If `of_rays` is false, tests the properties instead of the cases with rays. `is_run` receives the indices of a case
+/// and a structure.
 #[track_caller]
 fn assert_sound(of_rays: bool, is_run: fn(usize, usize) -> bool) {
     let (choices, mut cases) = (ours(), catalogue());
@@ -65,7 +65,7 @@ fn assert_sound(of_rays: bool, is_run: fn(usize, usize) -> bool) {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// The sample consists of the pairs whose case and structure have equal indices modulo `STEP`.
+/// In the sample, the indices of case and structure are equal modulo `STEP`.
 const STEP: usize = 9;
 
 #[test]

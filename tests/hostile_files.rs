@@ -1,6 +1,7 @@
-//! Malformed and malicious files, each rejected with one sentence about the file and the fault.
+//! Malformed and malicious files must be rejected with an error that names the file.
 //!
-//! Loading takes at most 64 MiB of memory plus twice the size of all files. For OBJ files, the factor is sixteen.
+//! Loading may use at most 64 MiB of memory plus twice the total size of the files. For OBJ files, the limit is
+//! 64 MiB plus sixteen times the total size of the files.
 
 use std::fs;
 
@@ -17,7 +18,7 @@ type Files = Vec<(&'static str, Vec<u8>)>;
 
 const SLACK: usize = 64 << 20;
 
-/// Returns the number of triangles or rays, or the error message from the file name on.
+/// Loads the first file. The returned error message starts at the file name.
 fn loaded(files: &Files) -> Result<usize, String> {
     let (name, folder) = (files[0].0, tempfile::tempdir().unwrap());
     for (name, bytes) in files {
@@ -133,7 +134,7 @@ fn gltf_files() -> Vec<(Files, [&'static str; 2])> {
         text([start.as_bytes(), &item.as_bytes().repeat(times), b"{}]}"].concat())
     };
 
-    // Many primitives or buffers refer to one megabyte of data. Accessor 1 reaches beyond the data.
+    // Number of vertices whose positions fit in 1 MiB.
     let megabyte = 87_381;
     let with_primitives = |accessors: &[usize]| {
         let mut document = document(megabyte);
@@ -189,7 +190,7 @@ fn ray_files() -> Vec<(Files, [&'static str; 2])> {
     ]
 }
 
-/// Runs in a separate process, because no other test may allocate during the measurement.
+/// Runs in a separate process, because allocations of other tests would change the measured memory peak.
 #[test]
 fn each_is_refused_in_a_sentence_and_takes_little_memory() {
     if !alone("hostile_files::each_is_refused_in_a_sentence_and_takes_little_memory") {
@@ -208,12 +209,12 @@ fn each_is_refused_in_a_sentence_and_takes_little_memory() {
         let text = [b"v 0 0 0\nvn 0 0 1\n", &faces.as_bytes().repeat(times)[..]].concat();
         assert_eq!(loaded(&vec![("a.obj", text)]), Ok(triangles * times));
     }
-    // A file to which many buffers refer is read only once.
+    // Many buffers refer to one file, which must be read only once.
     let mut often = document(1_000_000);
     often["buffers"] = (0..30_000).map(|_| json!({"uri": "a.bin", "byteLength": 12_000_000})).collect();
     often["accessors"][0]["count"] = 300.into();
     assert_eq!(loaded(&gltf(&often, 12_000_000)), Ok(100));
-    // The time must not be quadratic in the number of missing material libraries.
+    // The load time must not grow quadratically with the number of missing material libraries.
     let missing: String = (0..300_000).map(|i| format!("mtllib {i}\n")).collect();
     assert_eq!(loaded(&vec![("a.obj", format!("{missing}{TRIANGLE}f 1 2 3\n").into_bytes())]), Ok(1));
     let libraries = [b"mtllib a.mtl\n".repeat(100_000), format!("{TRIANGLE}usemtl a\nf 1 2 3\n").into_bytes()].concat();

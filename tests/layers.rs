@@ -1,13 +1,14 @@
-//! Checks that modules import only modules of lower layers.
+//! Checks the imports between modules against a list of layers.
 //!
-//! Also checks that some external crates are imported in only one folder.
+//! Also checks that only the folder `scene::load` imports the crates `gltf` and `tobj`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The modules of the three crates by layer, as in ARCHITECTURE.md. Within a layer, a module may import the modules
-/// before it. Structures are an exception.
+/// The modules of the suite, lowest layer first. A module may import only modules that are listed before it.
+///
+/// The modules of the layer `STRUCTURES` must not import each other.
 const LAYERS: [&[&str]; 9] = [
     &["escaped", "geometry", "names", "output", "panics", "plural", "simd"],
     &["exact", "triangle", "accel"],
@@ -20,13 +21,13 @@ const LAYERS: [&[&str]; 9] = [
     &["cli", "build_info"],
 ];
 
-/// The layer of the structures, which must not import each other.
+/// `LAYERS[STRUCTURES]` lists the modules of the acceleration structures.
 const STRUCTURES: usize = 3;
 
-/// External crates, each with the only folder that may import it.
+/// External crates, each with the only folder that may import the crate.
 const ENCLOSED: [(&str, &str); 2] = [("gltf", "scene::load"), ("tobj", "scene::load")];
 
-/// Source code by module path, such as `bvh8::node`. Comments and items for tests are removed.
+/// A map from module paths, such as `bvh8::node`, to source code without comments and `#[cfg(test)]` items.
 struct Sources(BTreeMap<String, String>);
 
 impl Sources {
@@ -42,7 +43,7 @@ impl Sources {
             let lines: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
             let code = lines.join("\n");
             let (left, items) = without_test_items(&code);
-            // `mod tests;` declares a file that is only for tests.
+            // `#[cfg(test)] mod tests;` declares a file that is compiled only for tests.
             let names = items.iter().filter_map(|item| item.strip_suffix(';')?.rsplit_once("mod "));
             tests.extend(names.map(|(_, name)| join(&module, name)));
             sources.insert(module, left);
@@ -55,7 +56,7 @@ impl Sources {
         let mut faults = BTreeSet::new();
         for (file, text) in &self.0 {
             let module = file.split("::").next().unwrap();
-            // The roots of the crates have no layer.
+            // Crate roots have no layer.
             let is_root = ["", "lib", "main"].contains(&module);
             if !is_root && place(module).is_none() {
                 faults.insert(format!("the module {module:?} has no layer: add it to tests/layers.rs"));
@@ -91,7 +92,7 @@ fn collect(folder: &Path, module: &str, found: &mut Vec<(String, String)>) {
         let path = entry.unwrap().path();
         let stem = path.file_stem().unwrap().to_str().unwrap().to_owned();
         if path.is_dir() {
-            // `core` and `images` are separate crates; the suite re-exports their modules.
+            // `core` and `images` are separate crates, so the modules in these folders are top-level modules.
             let is_crate = module.is_empty() && ["core", "images"].contains(&stem.as_str());
             collect(&path, &if is_crate { String::new() } else { join(module, &stem) }, found);
         } else if path.extension().is_some_and(|extension| extension == "rs") {
@@ -101,7 +102,7 @@ fn collect(folder: &Path, module: &str, found: &mut Vec<(String, String)>) {
     }
 }
 
-/// Returns the text without the items that are compiled only for tests, and these items.
+/// Removes the `#[cfg(test)]` items from a text. Returns the remaining text and the removed items.
 fn without_test_items(text: &str) -> (String, Vec<&str>) {
     let (mut left, mut items, mut rest) = (String::new(), vec![], text);
     while let Some((before, after)) = rest.split_once("#[cfg(test)]") {
@@ -118,15 +119,15 @@ fn without_test_items(text: &str) -> (String, Vec<&str>) {
     (left + rest, items)
 }
 
-/// The paths in a text, and the names after `use`.
+/// All paths with `::` in a text, and all names directly after `use`.
 fn paths(text: &str) -> impl Iterator<Item = &str> {
     let mut last = "";
     let words = text.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':').filter(|word| !word.is_empty());
     words.filter(move |word| word.contains("::") || std::mem::replace(&mut last, word) == "use")
 }
 
-/// The top-level module to which a path in `file` leads. Empty if the path is a list of modules. `None` if the path
-/// stays within the top-level module of `file` or leads to an external crate.
+/// Returns the top-level module to which `path` refers. Returns an empty string for a list, such as
+/// `crate::{accel, cli}`.
 fn imported<'a>(file: &str, path: &'a str) -> Option<&'a str> {
     let (first, rest) = path.split_once("::")?;
     if ["crate", "sahara_core", "sahara_images"].contains(&first) {
@@ -136,7 +137,7 @@ fn imported<'a>(file: &str, path: &'a str) -> Option<&'a str> {
     if above == file.split("::").count() { path.split("::").nth(above) } else { None }
 }
 
-/// The layer of a module, and its position within the layer.
+/// The index of the layer of a module, and the index of the module within the layer.
 fn place(module: &str) -> Option<[usize; 2]> {
     let mut places = LAYERS.iter().enumerate();
     places.find_map(|(layer, names)| Some([layer, names.iter().position(|name| *name == module)?]))
@@ -170,7 +171,6 @@ fn planted_faults_are_found() {
         (&[("accel", "#[cfg(test)]\nmod tests {\n    use crate::registry::Registry;\n}\n")], &[]),
         (&test_file, &[]),
         (&[("attic", "")], &["the module \"attic\" has no layer: add it to tests/layers.rs"]),
-        // Structures do not import each other. Within a layer, modules import only earlier ones.
         (&[("bvh8", "use crate::kdtree::KdTree;")], &["bvh8 imports kdtree"]),
         (&[("scene", "use crate::oracle::Tree;")], &["scene imports oracle"]),
         (&[("scene::loaded", "use gltf::{Document, json};")], &["scene::loaded imports gltf"]),

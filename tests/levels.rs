@@ -1,8 +1,8 @@
-//! Compares the hits and counts of all SIMD levels, bit for bit.
+//! Hits and traversal counts must be the same on all SIMD levels.
 //!
-//! On every level, packets and interleaved rays must return the hits of single rays.
+//! Packets and interleaved rays must have the same hits as single rays.
 //!
-//! Each test runs in a separate process, because it sets the SIMD level of the whole process.
+//! Each test runs in a separate process, because each test sets the SIMD level of the whole process.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ use sahara::validate::{Stratum, degenerate_meshes};
 
 use crate::alone::alone;
 
-/// Bits of `t` and primitive number of the closest hit, and the result of the any-hit query.
+/// The closest hit and the any-hit result of a ray.
 type Answer = (Option<(u32, u32)>, bool);
 
 fn answers(closest: Vec<Option<Hit>>, any: Vec<bool>) -> Vec<Answer> {
@@ -57,7 +57,7 @@ fn all_levels_return_the_same() {
     let registry = Registry::builtin();
     let levels = Level::available();
     if let [level] = &levels[..] {
-        // Write to the stream, because the test harness hides `eprint!` in a passing test.
+        // Write to stderr directly, because the test harness captures the output of `eprint!`.
         let note = format!("\nwarning: this machine or build has only the level {level}: levels are not compared\n");
         std::io::stderr().write_all(note.as_bytes()).expect("a sentence is written");
     }
@@ -79,13 +79,12 @@ fn all_levels_return_the_same() {
     assert!(hits > 20_000, "too few hits for a meaningful test: {hits}");
 }
 
-/// Adversarial rays in their original order, sorted by octant, and in groups of sixteen similar rays.
+/// Adversarial rays, then these rays sorted by direction octant, then groups of sixteen similar rays.
 fn bundles(mesh: &Mesh) -> Vec<Ray> {
     let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 6, 5)).collect();
     let mut sorted = mixed.clone();
     sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
-    // If `is_equal` is false, the lengths of the directions differ much. Error bounds may then decide the hits of only
-    // some rays.
+    // If `is_equal` is false, the directions of a group have very different lengths.
     let neighbours = |is_equal: bool| {
         let step = move |i: u32, ray: &Ray| {
             let longer = if is_equal { 1.0 } else { (3.0 * i as f32).exp2() };
@@ -98,7 +97,7 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     [mixed.clone(), sorted, neighbours(true), neighbours(false)].concat()
 }
 
-/// Triangles on a coarse grid. Rays hit many of these triangles at one `t`.
+/// Triangles with corners on a coarse grid. Rays often hit several triangles at the same `t`.
 fn coarse() -> Arc<Mesh> {
     let mut random = Pcg32::seed_from_u64(8);
     let mut corner = || Vec3::from_array(std::array::from_fn(|_| (random.next_u32() % 4) as f32 - 1.0));
@@ -106,7 +105,7 @@ fn coarse() -> Arc<Mesh> {
     Arc::new(Mesh::new(positions, (0..300).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()).unwrap())
 }
 
-/// Groups of sixteen rays from one grid point, with directions in one octant.
+/// Groups of sixteen rays. The rays of a group share the origin and the direction octant.
 fn from_the_grid() -> Vec<Ray> {
     let mut random = Pcg32::seed_from_u64(9);
     let mut rays = vec![];
@@ -153,7 +152,7 @@ fn packets_and_interleaved_rays_return_what_single_rays_do() {
         for (name, rays, mesh) in &cases {
             let single = traced(&*build(structure, mesh), rays);
             let together = build(&format!("{structure},batch=packets"), mesh);
-            // Only large trees interleave rays outside packets, so the trees of the Dragon must be large enough.
+            // Rays are interleaved only in large trees. The Dragon must therefore have a large tree.
             assert!(name != "Dragon" || together.footprint().total() > 3 << 20, "{structure}");
             for level in Level::available() {
                 level.choose();

@@ -4,7 +4,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// The licences that a person has read and judged permissive.
+/// Permissive licences, each read by a person.
 const ALLOWED: [&str; 12] = [
     "0BSD",
     "Apache-2.0",
@@ -20,10 +20,10 @@ const ALLOWED: [&str; 12] = [
     "Zlib",
 ];
 
-/// Further licences that are allowed for packages with fonts.
+/// Licences that are allowed only for packages with `font` in the name.
 const ALLOWED_FONTS: [&str; 2] = ["OFL-1.1", "Ubuntu-font-1.0"];
 
-/// Whether all parts of an `AND` and one part of each `OR` are allowed. Manifests have parentheses only around an `OR`.
+/// Whether a licence expression is allowed. Assumes that parentheses enclose only `OR` expressions.
 fn is_allowed(licence: &str, is_font: bool) -> bool {
     let is_known = |one: &str| ALLOWED.contains(&one) || is_font && ALLOWED_FONTS.contains(&one);
     let alternatives = |part: &str| part.trim_matches(['(', ')']).replace('/', " OR ");

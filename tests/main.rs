@@ -1,4 +1,4 @@
-//! All integration tests form one binary, which compiles and links the trees only once.
+//! All integration tests form one binary to reduce the build time.
 
 use sahara::measure::CountingAllocator;
 
@@ -21,6 +21,6 @@ mod properties;
 mod real_meshes;
 mod third_party;
 
-/// Tests measure memory with this allocator.
+/// Some tests measure memory with this allocator.
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;

@@ -1,6 +1,6 @@
-//! Tests that the peers have correct hits, except for the known defects.
+//! Tests the hits of peers, which are structures of other projects.
 //!
-//! If a listed defect disappears, remove it from the list.
+//! If a peer fixes a defect, remove the peer from the matching entry in `FINDINGS`.
 #![cfg(any(feature = "peer-bvh", feature = "peer-embree", feature = "peer-parry", feature = "peer-tinybvh"))]
 
 use std::panic::{self, AssertUnwindSafe};
@@ -14,7 +14,7 @@ use sahara::validate::conformance::{Named, counting, findings, shapes};
 use crate::conformance::passes;
 use crate::findings::{self, CleanStrata, Finding, LOST, assert_clean, compared, mesh};
 
-/// Configurations of the peers. The tests skip peers whose feature is off or whose library is absent.
+/// Configurations of the peers. The tests skip peers whose Cargo feature is off or whose library is absent.
 const PEERS: [&str; 12] = [
     "bvh",
     "bvh:test=moller-trumbore",
@@ -30,7 +30,7 @@ const PEERS: [&str; 12] = [
     "embree-robust:packet=16",
 ];
 
-/// `None` if the peer is absent.
+/// Returns `None` if the peer is skipped.
 fn present(spec: &str) -> Option<Choice> {
     let registry = Registry::builtin();
     let is_on = registry.names().contains(&spec.split(':').next().unwrap());
@@ -49,7 +49,9 @@ fn meshes(choice: &Choice) -> Vec<Named> {
     meshes
 }
 
-/// Peers whose errors do not depend on the instruction set, and their strata without an error.
+/// Peers, each with the strata of rays on which the peer has no errors.
+///
+/// The list contains only peers with the same errors on all instruction sets.
 const CLEAN: [CleanStrata; 2] = {
     use Stratum::{Invalid, Lengths, NearSurface, Random, RoundedEnds, Windows};
     [
@@ -73,7 +75,7 @@ fn every_configuration_is_right_on_random_rays_counts_and_has_a_possible_shape()
         passes(counting(&subject, &meshes, 10));
         passes(shapes(&subject, &meshes));
         for finding in findings(&subject, &meshes, 40).unwrap() {
-            // In a packet of coherent rays, Embree may choose another of several triangles at one `t`.
+            // If several triangles have equal `t`, the triangle that Embree returns may depend on the packet.
             let another = if choice.label.ends_with("coherent") { finding.validation.unrepeatable } else { 0 };
             let wrong = finding.validation.errors() > another;
             assert!(finding.stratum != Stratum::Random || !wrong, "{}", finding.line(&choice.label));
@@ -90,7 +92,6 @@ const FINDINGS: [Finding; 4] = [
     },
     Finding {
         cause: "in the far face of a box: the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
-        // tinybvh also misses rays in far faces, but rounding of its own triangle test may be the cause.
         structures: &["bvh", "parry", "embree", "embree-robust"],
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
         ..LOST
@@ -109,7 +110,7 @@ fn each_finding_is_still_there() {
     for name in ["bvh", "parry", "tinybvh", "embree", "embree-robust"] {
         let Some(choice) = present(name) else { continue };
         FINDINGS.iter().for_each(|finding| finding.assert_on(&choice, name));
-        // `embree` and `tinybvh` declare that they exclude hits at `t_min`, so this ray counts as declined.
+        // The ray below has a hit at `t_min`. `embree` and `tinybvh` exclude hits at `t_min`.
         let declined = match name {
             "embree" | "tinybvh" => 1,
             "embree-robust" => 0,

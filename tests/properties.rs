@@ -19,7 +19,7 @@ fn built((name, keys): (&str, &str), mesh: &Arc<Mesh>) -> Box<dyn DynAccel> {
     Registry::builtin().choose(&format!("{name}:test=moller-trumbore,{keys}")).unwrap().build(mesh).unwrap()
 }
 
-/// Meshes of fewer than `most` triangles. Most triangles share corners.
+/// Meshes of fewer than `most` triangles.
 fn meshes(number: impl Strategy<Value = f32> + Clone, most: usize) -> impl Strategy<Value = Arc<Mesh>> {
     let point = prop::array::uniform3(number).prop_map(Vec3::from_array);
     (prop::collection::vec(point, 3..40), prop::collection::vec(any::<[prop::sample::Index; 3]>(), 0..most)).prop_map(
@@ -36,7 +36,9 @@ fn rays(number: impl Strategy<Value = f32> + Clone, count: usize) -> impl Strate
     prop::collection::vec(ray, count)
 }
 
-/// Small integers and zeros of both signs. On these coordinates, Möller-Trumbore rounds only in its one division.
+/// Small integers and zeros of both signs.
+///
+/// With these coordinates, the division is the only inexact operation of the Möller-Trumbore test.
 fn integers() -> impl Strategy<Value = f32> + Clone {
     prop_oneof![9 => (-4_i8..=4).prop_map(f32::from), 1 => Just(-0.0_f32)]
 }
@@ -50,7 +52,6 @@ fn the_fuzzer_leaves_out_no_structure_of_this_crate() {
     assert_eq!(target::left_out(), Vec::<String>::new());
 }
 
-/// Most cases must have hits, because cases without hits test little.
 #[test]
 fn most_drawn_cases_are_meshes_that_rays_hit() {
     let mut runner = TestRunner::new(config());
@@ -65,19 +66,21 @@ fn most_drawn_cases_are_meshes_that_rays_hit() {
     assert!((181..200).contains(&meshes) && hits > 600, "{meshes} meshes of 200 cases, {hits} hits");
 }
 
-/// A number from the environment, for longer runs than usual: see tests/fuzz/README.md.
+/// Returns a number from an environment variable. tests/fuzz/README.md describes the variables.
 fn from_environment(name: &str, otherwise: u32) -> u32 {
     let number = |text: String| text.parse().unwrap_or_else(|_| panic!("{name}={text} is not a whole number"));
     std::env::var(name).map_or(otherwise, number)
 }
 
-/// A fixed seed makes the cases of every run the same.
+/// With the fixed seed, every run has the same cases.
 fn config() -> ProptestConfig {
     let (rng_seed, failure_persistence) = (RngSeed::Fixed(2003), None);
     ProptestConfig { cases: 400, failure_persistence, rng_seed, ..ProptestConfig::default() }
 }
 
-/// Checks that all variants return the correctly rounded nearest `t` and the lowest primitive number at this `t`.
+/// Checks that all variants return the correctly rounded `t` of the nearest hit.
+///
+/// If several primitives have the same exact `t`, the variants must return the lowest primitive number.
 fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
     let exact: Vec<Option<(f32, u32)>> =
         rays.iter().map(|ray| oracle::nearest(ray, mesh).map(|truth| truth.first())).collect();
@@ -93,8 +96,7 @@ fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
 proptest! {
     #![proptest_config(config())]
 
-    /// Intervals begin or end at hits and at multiples of 1/2. On this grid, an exact `t` that rounds to a multiple of
-    /// 1/2 equals this multiple.
+    /// Tests ray intervals with bounds at hits and at multiples of 1/2.
     #[test]
     fn on_an_integer_grid_every_structure_is_exact_and_intervals_are_half_open(
         mesh in meshes(integers(), 60),
@@ -104,7 +106,7 @@ proptest! {
         let mut windowed = rays.clone();
         for ray in &rays {
             windowed.push(Ray { t_min: f32::from(ends.0) / 2.0, t_max: f32::from(ends.1) / 2.0, ..*ray });
-            // Skip hits whose exact `t` is not a float, because an interval cannot end there.
+            // Skip hits whose exact `t` is not a float, because interval bounds are floats.
             let Some(t) = oracle::nearest(ray, &mesh).map(|truth| truth.t) else { continue };
             if t.compare(t.round()) == Some(std::cmp::Ordering::Equal) {
                 let (at, behind) = (t.round(), t.round().next_up());
@@ -115,7 +117,7 @@ proptest! {
         all_are_exact(&mesh, &windowed)?;
     }
 
-    /// Scaling mesh and rays by a power of two changes no bit of a hit.
+    /// Scaling the mesh and the rays by a power of two must not change the hits.
     #[test]
     fn powers_of_two_change_nothing(mesh in meshes(-2.0_f32..2.0, 40), rays in rays(-2.0_f32..2.0, 40), k in -12_i32..12) {
         let scale = libm::scalbnf(1.0, k);

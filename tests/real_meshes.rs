@@ -1,7 +1,7 @@
-//! Tests the loaders and views on real meshes, which the suite does not contain.
+//! Tests the loaders and views on real meshes, which are not in the repository.
 //!
-//! The environment variable `SAHARA_DATA` names a folder with the files. Without this variable, the tests print that
-//! they are skipped.
+//! The environment variable `SAHARA_DATA` names the folder of the meshes. Without this variable, the tests skip all
+//! meshes.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,6 @@ use sahara::geometry::{Aabb, Mesh};
 use sahara::scene::{Model, Scene, SceneError, View, load};
 use sahara::triangle::MollerTrumbore;
 
-/// `treated` is "skipped" or "only read", for the message if `SAHARA_DATA` is not set.
 fn folder(name: &str, treated: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("SAHARA_DATA").map(PathBuf::from);
     if folder.is_none() {
@@ -20,7 +19,7 @@ fn folder(name: &str, treated: &str) -> Option<PathBuf> {
     folder
 }
 
-/// `None` if the folder or the file is missing.
+/// Returns `None` if `SAHARA_DATA` is not set or the file is missing.
 fn real(name: &str) -> Option<(Model, Mesh)> {
     let path = folder(name, "skipped")?.join(name);
     if !path.is_file() {
@@ -33,7 +32,7 @@ fn real(name: &str) -> Option<(Model, Mesh)> {
     Some((model, Mesh::new(positions, triangles).unwrap()))
 }
 
-/// File; numbers of triangles, vertices, degenerate triangles and materials; least and greatest corner of the bounds.
+/// Columns: file, triangles, vertices, degenerate triangles, materials, minimum x y z, maximum x y z.
 const MESHES: &str = "
     dragon.obj 100000 50000 0 1 -7.0467 0 -3.15129995 7.0467 9.9399004 3.15129995
     lucy.ply 100000 50002 0 1 -464.913574 -798.450562 -266.838562 464.913574 798.450562 266.838562
@@ -60,7 +59,7 @@ fn the_loaders_find_what_is_in_them() {
     }
 }
 
-/// Views, and the range of percentages of a picture of 128 x 128 pixels that the mesh fills.
+/// Views, each with the allowed percentage of pixels that show the mesh.
 const VIEWS: [(&str, std::ops::RangeInclusive<usize>); 6] = [
     ("bunny", 20..=30),
     ("dragon-scan", 22..=32),
@@ -72,7 +71,7 @@ const VIEWS: [(&str, std::ops::RangeInclusive<usize>); 6] = [
 
 #[test]
 fn the_views_look_at_their_meshes() {
-    // This view needs no file.
+    // The view `on-floor` needs no mesh file.
     let scene = Scene::read(Path::new("scenes/views/on-floor.toml"), Some(Path::new("/nowhere"))).unwrap();
     assert!(scene.name == "on-floor" && scene.mesh.bounds().min.y == 0.0 && !scene.shadow_terminator_fix);
     for (name, filled) in VIEWS {
@@ -87,7 +86,7 @@ fn the_views_look_at_their_meshes() {
             }
             scene => scene.unwrap(),
         };
-        // A shadow terminator fix would move the origins of shadow rays, perhaps behind the next wall.
+        // A shadow terminator fix could move the origins of shadow rays behind another wall.
         assert!(scene.name == name && !scene.shadow_terminator_fix);
         let tree = Bvh8::<MollerTrumbore>::build(&scene.mesh, &Bvh8Config::default()).unwrap();
         let view = scene.camera.view([128, 128]);

@@ -1,4 +1,4 @@
-//! Tests structures and a study that another crate adds to the suite.
+//! Tests a crate that adds structures and a study to the suite.
 
 use std::fs;
 use std::process::{Command, ExitCode, Stdio};
@@ -36,7 +36,7 @@ fn the_grid_that_the_broken_ones_are_made_from_is_right_and_what_is_declined_is_
 
 #[test]
 fn what_hangs_is_given_up_and_told_from_what_panics() {
-    // On one triangle, everything except a hang ends long before the limit, even on a busy machine.
+    // On one triangle, only a hang can reach the time limit.
     let one: Vec<Named> = degenerate_meshes().into_iter().filter(|(name, _)| name == "one triangle").collect();
     let subject =
         |fault| Subject { limit: Duration::from_secs(2), ..Subject::of::<Broken>("broken", BrokenConfig { fault }) };
@@ -55,7 +55,7 @@ fn what_hangs_is_given_up_and_told_from_what_panics() {
     }
 }
 
-/// A stack of ten entries suffices for small meshes, so only stacked sheets reveal the fault.
+/// The fault `OverflowedStack` occurs only in deep trees.
 #[test]
 fn a_short_stack_is_found_by_stacked_sheets() {
     let of = |fault| answers(&Subject::of::<Faulty>("mybvh", FaultyConfig { fault }), &stacked_sheets(), 10);
@@ -63,12 +63,12 @@ fn a_short_stack_is_found_by_stacked_sheets() {
     assert!(of(faulty::Fault::OverflowedStack).unwrap_err().contains("8192 stacked sheets"));
 }
 
-/// The tests below run this test in a separate process, as the command of another crate.
+/// The tests below run this function as a command in a separate process.
 #[test]
 fn command() {
     let Some(args) = std::env::var_os("SAHARA_THIRD_PARTY") else { return };
     let args = args.into_string().unwrap();
-    // All built-in studies take minutes, so `study all` and `report` run only the study of this crate.
+    // The built-in studies take minutes, so `study all` and `report` include only `DUPLICATION`.
     let all = args.starts_with("study all") || args.starts_with("report");
     let studies = if all { Studies::empty() } else { Studies::builtin() };
     let suite = Suite { registry: registry(), studies: studies.with(DUPLICATION) };
@@ -101,7 +101,7 @@ fn content(folder: &Folder, args: &str, parts: &[&str]) -> String {
 
 #[test]
 fn the_command_rejects_each_fault_for_its_own_reason() {
-    // A fault affects one ray in `one_in`, selected by `picks`. The message must contain one of these rays.
+    // If the message names a ray, `picks(ray, one_in)` must be true for this ray.
     for (fault, rays, reason, one_in) in [
         ("drops", 100_000, "lost on ray \"", 10_000),
         ("wrong-id", 1000, "wrong-primitive on ray \"", 1),
@@ -146,7 +146,6 @@ fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
         let verdict = if fault == "none" { sentence.into() } else { format!("{fault} {sentence}") };
         assert!(right == (sentence == ROUNDS) && unwrapped(&printed).contains(&verdict), "{fault}: {printed}");
     }
-    // Hard cases reveal faults on axis-parallel rays in box faces, on boxes without thickness and in deep trees.
     for (fault, case, is_found) in [
         ("zero-times-infinity", "straight_down", true),
         ("degenerate-box", "planar_in_split_plane", true),
@@ -163,7 +162,6 @@ fn each_fault_of_a_tree_is_told_from_what_its_triangle_test_rounds() {
     }
 }
 
-/// A structure with wrong hits on timed rays has no time, and a message names one of these rays.
 #[test]
 fn wrong_answers_are_seen_where_speed_is() {
     for (fault, is_timed) in [("none", true), ("leaf-dropped", false), ("epsilon", false)] {
@@ -226,10 +224,10 @@ fn a_study_of_another_crate_is_in_the_command_in_study_all_and_on_the_page() {
     assert_contains(&folder.read("d.json"), &["\"word\":\"staircase:64\""]);
     let csv = folder.read("d.csv");
     assert!(csv.starts_with("scene,structure,references_per_triangle\n") && csv.lines().count() == 5, "{csv}");
-    // A run with other settings adds cases to the journal.
+    // Runs with different structures may use the same folder.
     content(folder, "study duplication -s grid --rays 256 --dir runs", &[]);
     let plan = content(folder, "study plan duplication -s sah-kd --rays 256 --dir jobs", &[]);
-    // The test harness prints the test name before the first line of the plan.
+    // The first line of the plan begins with the test name, which the test harness prints.
     let jobs: Vec<&str> = plan.lines().filter_map(|line| Some(line.split_once("sahara ")?.1)).collect();
     assert_eq!(jobs.len(), 2, "{plan}");
     for _ in 0..2 {

@@ -24,7 +24,7 @@ Wrong hits of structures of other projects (obvhs, Embree, tinybvh, bvh, parry)
 with known defects do not change the status; tables name the defects. `-` as an
 output file is standard output; tables and messages then go to standard error.";
 
-/// Returns the exit code of a result. Prints the error of a failed result.
+/// Returns the exit code of a result. An `Err` is printed.
 pub(super) fn of(found: anyhow::Result<Status>) -> ExitCode {
     ended(match found {
         Ok(Status::Right) => 0,

@@ -1,4 +1,4 @@
-//! The command `list`: prints names or the options of one structure.
+//! The command `list`: prints lists of names, or the options of one structure.
 
 use super::Suite;
 use super::terminal::Terminal;

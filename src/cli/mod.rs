@@ -43,8 +43,8 @@ use crate::study::{Case, Status, Studies, Study};
 use progress::OnTerminal;
 use terminal::{Colour, Terminal};
 
-/// The template of `sahara --help`. The help and a prompt must fit 80 x 24 characters. The template therefore omits the
-/// global options.
+/// The template of `sahara --help`. The help and a shell prompt must fit into 80 x 24 characters. The template
+/// therefore omits the global options.
 const SCREEN: &str = "\
 {about}
 
@@ -70,7 +70,7 @@ impl From<Registry> for Suite {
     }
 }
 
-/// The display order of global options, after the options of each command.
+/// This display order puts global options after the options of each command.
 const GLOBAL: usize = 900;
 
 /// Options of all commands.
@@ -155,7 +155,7 @@ const REPORT: &str = "report";
 
 pub(crate) const NO_PAGE: &str = "this sahara was built without the feature `page`: rebuild it with `--features page`";
 
-/// The commands that the help lists.
+/// The commands that appear in the help.
 fn shown(studies: &Studies) -> clap::Command {
     let whole = clap::Command::new("sahara").version(env!("CARGO_PKG_VERSION")).max_term_width(100);
     let command = Global::augment_args(whole)
@@ -187,7 +187,7 @@ fn command(studies: &Studies) -> clap::Command {
     let command = command.subcommands(moved::COMMANDS.iter().map(old));
     let command = if cfg!(feature = "page") { command } else { command.subcommand(old(&(REPORT, NO_PAGE))) };
     let mut command = command.mut_subcommands(with_statuses);
-    // `build` adds the command `help`. Hide the command `help` to shorten the help.
+    // `build` adds the command `help`. Hide this command to shorten the output of `sahara --help`.
     command.build();
     command.mut_subcommand("help", |help| help.hide(true))
 }
@@ -227,7 +227,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
         level.choose();
     }
     let terminal = Terminal::new(global.color, global.quiet, global.verbose);
-    // A child of `validate --hard` must end with the exit status of a panic.
+    // Do not catch a panic in a child of `validate --hard`. The parent process detects the panic by the exit status.
     let may_panic = matches.subcommand_name() == Some(validate::CHILD);
     let level = global.level.iter().flat_map(|level| ["--level", level.name()]).map(OsString::from);
     let processes: Option<Vec<OsString>> = starts_processes.then(|| level.collect());

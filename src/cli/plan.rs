@@ -46,8 +46,7 @@ pub struct Args {
 }
 
 impl Args {
-    /// Returns the arguments of this command, the names of studies, and the options of the studies. clap does not check
-    /// the options in `rest`.
+    /// Returns the arguments of this command, the names of studies, and the options of the studies.
     fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut options) = (self.clone(), vec![]);
         // After `--scenes`, clap parses options of studies as scenes. Without a name, clap parses the first option of a

@@ -69,7 +69,7 @@ pub struct OnTerminal<'a> {
     done: u64,
     log: LogLines,
     warned: Vec<String>,
-    /// Whether this process measures a single case for a scheduler.
+    /// Whether this process measures a single case, as one job of a cluster.
     is_job: bool,
 }
 

@@ -73,7 +73,7 @@ impl Terminal {
         self.print(&(terminal::table(&table, self.screen) + "\n"));
     }
 
-    /// Prints a table of measurements. The notes are printed only with `verbose`.
+    /// Prints a table of measurements. The notes of the table are printed only with `verbose`.
     pub fn print_results(&self, table: &Table) {
         if self.verbose {
             return self.print_table(table);

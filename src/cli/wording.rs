@@ -1,4 +1,4 @@
-//! Searches helps, messages, documents and comments for phrases that the glossary replaces.
+//! Finds phrases to avoid in help texts, messages, documents and comments.
 
 use std::path::Path;
 
@@ -48,7 +48,7 @@ fn helps(command: &mut clap::Command, into: &mut Vec<String>) {
     command.get_subcommands_mut().filter(|own| own.get_name() != "help").for_each(|own| helps(own, into));
 }
 
-/// The string literals in a source file before the tests. Each literal is joined into one line.
+/// The string literals above the tests of a source file. Each literal is joined into one line.
 fn literals(source: &str) -> Vec<String> {
     let source = source.split("\n#[cfg(test)]\n").next().unwrap_or(source);
     let code = source.lines().map(|line| format!(" {line}").split(" // ").next().unwrap_or_default().to_owned());

@@ -9,9 +9,9 @@ use crate::traversal::leaf::{LeafBlock, search, start};
 use crate::traversal::walk::{Walk, walked_queries};
 use crate::triangle::TriangleTest;
 
-/// Tests every triangle: the reference for all other structures.
+/// Tests all triangles, without a tree.
 ///
-/// Tests eight triangles at once. The results are bit-identical to the results of the scalar test.
+/// The `t` of the nearest hit is bit-identical to the result of `triangle::scalar_hit` for the hit triangle.
 pub struct BruteForce<T: TriangleTest> {
     blocks: Vec<LeafBlock<T>>,
     references: usize,
@@ -53,7 +53,6 @@ impl<T: TriangleTest> Accel for BruteForce<T> {
     }
 
     fn shape(&self) -> TreeShape {
-        // Every ray tests every triangle, even a ray that misses the box.
         let sah_cost = Some(self.references as f64);
         TreeShape { sah_cost, ..TreeShape::one_leaf(self.references) }
     }

@@ -1,6 +1,6 @@
 //! Meshes, triangle tests and ray-tracing acceleration structures for renderers.
 //!
-//! A structure is built over a mesh and traces slices of rays:
+//! This example builds a structure over a mesh and traces two rays:
 //!
 //! ```
 //! use std::sync::Arc;
@@ -24,7 +24,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The generic structures are compiled in your crate, with the profile of your workspace.
+//! Generic structures such as `Bvh8` are compiled with the optimization level of your crate.
 
 #![warn(missing_docs)]
 
@@ -46,6 +46,6 @@ pub mod simd;
 mod traversal;
 pub mod triangle;
 
-// The API uses types of these crates, so your crate needs the same versions.
+// The API uses types of these crates. The re-exports give users the matching versions.
 pub use glam;
 pub use serde;

@@ -1,6 +1,6 @@
-//! The structures that the registry offers by name, compiled once in this crate.
+//! The structures that are compiled in this crate.
 //!
-//! To add a structure, add its type to `offered_over!`, or to `offered!` if it has one triangle test.
+//! To add a structure, add its type to a call of `offered!`.
 
 use std::sync::Arc;
 

@@ -9,12 +9,12 @@ use crate::output::temporary_file;
 
 pub struct Client(ureq::Agent);
 
-/// Mesh repositories need one or two redirects.
+/// Mesh repositories redirect a download once or twice.
 const REDIRECTS: u32 = 5;
 
 const TIMEOUT: Duration = Duration::from_secs(60);
 
-/// The size limit in bytes, if the scene file gives no size.
+/// The default limit of the download size, in bytes.
 const MAX_BYTES: u64 = 8 << 30;
 
 impl Default for Client {
@@ -38,11 +38,11 @@ impl Client {
         Self(config.into())
     }
 
-    /// The file appears at its path only if it is complete and verified. `progress` receives the number of bytes so
-    /// far.
+    /// An incomplete or unverified download never appears at `file.path`. `progress` receives the number of bytes
+    /// downloaded so far.
     ///
     /// # Errors
-    /// If an existing or downloaded file has other contents, or if the download, reading or writing fails.
+    /// If the SHA-256 of an existing or downloaded file is not `file.sha256`. If the download, a read or a write fails.
     pub fn fetch(&self, file: &DataFile, progress: &mut dyn FnMut(u64)) -> Result<FetchOutcome, FetchError> {
         if file.is_there()? {
             return Ok(FetchOutcome::AlreadyThere);

@@ -15,7 +15,7 @@ pub struct DataFile {
 
 impl DataFile {
     /// # Errors
-    /// If `real` has no hash, must be unpacked, or has a URL that is not HTTP or HTTPS.
+    /// If `real.sha256` is `None` or `real.unpack` is `Some`. If the URL begins with neither `https://` nor `http://`.
     pub fn new(real: &RealMesh, folder: &Path) -> Result<Self, FetchError> {
         let RealMesh { file, url, sha256, unpack, bytes, .. } = real.clone();
         if unpack.is_none() && !["https://", "http://"].iter().any(|scheme| url.starts_with(scheme)) {
@@ -30,7 +30,7 @@ impl DataFile {
     }
 
     /// # Errors
-    /// If the file exists with other contents, or cannot be read.
+    /// If an existing file has the wrong SHA-256 or cannot be read.
     pub fn is_there(&self) -> Result<bool, FetchError> {
         if !self.path.exists() {
             return Ok(false);
@@ -43,7 +43,7 @@ impl DataFile {
     }
 
     /// # Errors
-    /// If the hash differs, or the file cannot be read.
+    /// If `part` has the wrong SHA-256 or cannot be read.
     pub fn verify(&self, part: &Path) -> Result<(), FetchError> {
         let found = hash(part)?;
         if found == self.sha256 {

@@ -1,6 +1,6 @@
-//! Downloads real meshes, and verifies the SHA-256 of each file.
+//! Downloads and verifies mesh files.
 //!
-//! Without the feature `fetch`, `sahara fetch` prints the files to download by hand, and verifies existing files.
+//! Without the feature `fetch`, `sahara fetch` downloads no files.
 
 #[cfg(feature = "fetch")]
 mod client;

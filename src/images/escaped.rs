@@ -4,10 +4,9 @@ use std::ffi::OsStr;
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
-/// Unescaped control characters in a file name could change the terminal or break a table. A lossy conversion would
-/// print different invalid bytes alike.
 pub trait Escaped {
-    /// The name on one line. Control characters appear as `\n` or `\u{1b}`, and bytes that are not UTF-8 as `\xff`.
+    /// The name on one line. Control characters appear, for example, as `\n` or `\u{1b}`. Invalid UTF-8 bytes appear,
+    /// for example, as `\xff`.
     fn escaped(&self) -> Escape<'_>;
 }
 
@@ -32,14 +31,15 @@ impl Display for Escape<'_> {
     }
 }
 
-/// Whether a character moves the cursor, ends a line or changes the text direction.
+/// Whether `c` is a control character, a line or paragraph separator, or a text direction mark.
 fn is_control(c: char) -> bool {
     c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Quotes `word` for a shell if necessary, on one line.
+/// Quotes `word` for a shell if necessary. The result is one line.
 ///
-/// A word with control characters or invalid UTF-8 becomes `$'a\xff'`, which bash, zsh and ksh understand.
+/// A word with control characters or invalid UTF-8 becomes, for example, `$'a\xff'`. The shells bash, zsh and ksh
+/// understand this syntax.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref();
     let Some(text) = word.to_str().filter(|text| !text.chars().any(is_control)) else {

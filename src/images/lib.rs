@@ -1,5 +1,5 @@
-//! Scenes, a renderer, and the comparison of pictures with golden images. [`sahara_core`] contains the acceleration
-//! structures. `sahara` contains the command and re-exports most modules.
+//! Scenes, a renderer, and golden images, which are stored correct pictures. [`sahara_core`] contains the acceleration
+//! structures.
 
 use sahara_core::{accel, geometry, oracle, triangle};
 #[cfg(test)]
@@ -13,5 +13,5 @@ pub mod plural;
 pub mod render;
 pub mod scene;
 
-// Callers need this version of `image`.
+// Public functions return types of `image`.
 pub use image;

@@ -1,6 +1,6 @@
-//! Looks up names without regard to case, and suggests names for misspelled ones.
+//! Finds values by name, ignoring case. Suggests corrections of misspelled names.
 
-/// Declares an enum whose values have names.
+/// Declares an enum with a text name for each value.
 #[macro_export]
 macro_rules! named_enum {
     ($(#[$doc:meta])* pub enum $type:ident { $($(#[$of:meta])* $value:ident = $name:literal,)* }) => {
@@ -10,7 +10,7 @@ macro_rules! named_enum {
         }
 
         impl $type {
-            /// All values, in the order of tables.
+            /// All values, in the order of their declaration.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$value),*];
 
             /// The name of the value in commands, output and files.
@@ -50,8 +50,10 @@ pub fn named<T>(known: impl IntoIterator<Item = T>, wanted: &str, name: impl Fn(
     known.into_iter().find(|one| name(one).eq_ignore_ascii_case(wanted))
 }
 
-/// The element of `known` that `wanted` probably means. Swapped neighbours are one difference: Damerau, A technique for
-/// computer detection and correction of spelling errors, 1964.
+/// The element of `known` that `wanted` probably means.
+///
+/// # References
+/// Damerau, A technique for computer detection and correction of spelling errors, 1964.
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted: String = wanted.chars().take(60).flat_map(char::to_lowercase).collect();
     let known: Vec<&str> = known.into_iter().collect();

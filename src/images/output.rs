@@ -1,10 +1,9 @@
-//! Writes files and folders completely or not at all, and writes to standard output.
+//! Writes results to files, folders and standard output.
 //!
-//! A temporary file or folder beside the target receives the contents, and is then renamed. No reader sees partial
-//! contents, and a failure keeps the old contents.
+//! A regular file or a folder is first written under a temporary name beside the target. The complete file or folder
+//! is then renamed to the target. A failed write keeps the old contents of the target.
 //!
-//! If the reader closes standard output, as `| head` does, the run continues without an error. Any other failure of
-//! standard output is reported at the end of the run.
+//! A reader that closes standard output, such as `head`, causes no error.
 
 use std::collections::HashSet;
 use std::fmt::Display;
@@ -21,7 +20,7 @@ use crate::escaped::Escaped as _;
 /// The file name for standard output.
 pub const STDOUT: &str = "-";
 
-/// This file marks a folder as output of sahara and lists the files of the folder.
+/// The name of the file that lists the contents of an output folder.
 const MARK: &str = "sahara-files.json";
 
 #[derive(Debug, thiserror::Error)]
@@ -37,18 +36,19 @@ impl OutputError {
         Self::Target { path: path.into(), problem: problem.into() }
     }
 
-    /// Drops the text of an error of `tempfile`, because the text contains a temporary path.
+    /// Keeps only the kind of a custom error, because errors of `tempfile` contain temporary paths.
     fn write(path: &Path, error: io::Error) -> Self {
         let cause = if error.get_ref().is_some() { error.kind().into() } else { error };
         Self::Write { path: path.into(), cause }
     }
 }
 
-/// A file for results, or standard output if the path is [`STDOUT`].
+/// A destination of results. The path [`STDOUT`] represents standard output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OutputFile {
     pub path: PathBuf,
-    /// The regular file, with links followed. `None` for standard output and special files such as pipes.
+    /// The path of the regular file, without symbolic links. `None` for standard output and special files, such as
+    /// pipes.
     regular: Option<PathBuf>,
 }
 
@@ -87,8 +87,7 @@ impl OutputFile {
         Err(OutputError::place(&twice.path, "two results would go there: name another file for one of them"))
     }
 
-    /// [`FAILURE`] records an error of standard output, which is not returned. After any other error, an existing
-    /// regular file is unchanged.
+    /// Stores an error of standard output in [`FAILURE`], instead of returning the error.
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
         let write = || {
             match &self.regular {
@@ -101,15 +100,16 @@ impl OutputFile {
         write().map_err(|cause| OutputError::write(&self.path, cause))
     }
 
-    /// Returns false if the path exists. Only one of several concurrent writers succeeds, even on a shared file system.
-    /// A failed write leaves no file.
+    /// Returns false if the path exists or is [`STDOUT`]. Only one of several concurrent calls for one path
+    /// returns true.
     pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
         let Some(regular) = &self.regular else { return Ok(false) };
         match written(regular, bytes).and_then(|file| Ok(file.persist_noclobber(regular)?)) {
             Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => return Ok(false),
             written => drop(written.map_err(|cause| OutputError::write(&self.path, cause))?),
         }
-        // Flush the folder, which stores the name of the file. Ignore errors: some systems cannot flush folders.
+        // The folder is flushed, because the folder stores the name of the file. Errors are ignored, because some
+        // systems cannot flush folders.
         let _ = fs::File::open(folder_of(regular)).and_then(|folder| folder.sync_all());
         Ok(true)
     }
@@ -130,7 +130,8 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Checks that `path` is missing, is empty or contains only earlier output. Leaves no file behind.
+    /// Checks that the folder contains only earlier output of sahara. The folder may be empty or missing. Leaves no
+    /// file behind.
     pub fn check(path: &Path) -> Result<Self, OutputError> {
         if path.exists() && !path.is_dir() {
             return Err(OutputError::place(path, "it is a file: name a folder that does not exist yet"));
@@ -155,7 +156,7 @@ impl OutputFolder {
         Err(OutputError::place(&self.path, problem))
     }
 
-    /// Replaces the contents of the folder with `files`, whose names are relative paths with `/`.
+    /// Replaces the contents of the folder with `files`. Each name is a relative path with `/` as separator.
     pub fn write(&self, files: &[(String, Vec<u8>)]) -> Result<(), OutputError> {
         self.write_in(|folder| {
             files.iter().try_for_each(|(name, bytes)| {
@@ -166,7 +167,7 @@ impl OutputFolder {
         })
     }
 
-    /// `fill` receives a temporary folder and writes the files there.
+    /// `fill` receives the path of a temporary folder for the new files.
     pub fn write_in<T>(&self, fill: impl FnOnce(&Path) -> io::Result<T>) -> Result<T, OutputError> {
         let replace = || {
             let new = temporary_folder(&self.resolved)?;
@@ -181,7 +182,7 @@ impl OutputFolder {
                 fs::rename(&self.resolved, &old)?;
             }
             fs::rename(new.path(), &self.resolved).inspect_err(|_| drop(fs::rename(&old, &self.resolved)))?;
-            // `keep` prevents `new` from removing its temporary path, which was renamed.
+            // `keep` prevents the destructor of `new` from deleting the temporary path.
             let _ = new.keep();
             Ok(filled)
         };
@@ -189,7 +190,7 @@ impl OutputFolder {
     }
 }
 
-/// The files and empty folders below `folder`, as relative paths with `/`.
+/// The files and empty folders below `folder`, as relative paths with `/` as separator.
 fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
     let mut names = vec![];
     for entry in fs::read_dir(folder)? {
@@ -202,7 +203,7 @@ fn names_below(folder: &Path, prefix: &str) -> io::Result<Vec<String>> {
     Ok(names)
 }
 
-/// The file may be missing, but its folder must exist.
+/// The absolute path, without symbolic links. The file may be missing. The parent folder must exist.
 fn resolved(path: &Path) -> io::Result<PathBuf> {
     path.canonicalize().or_else(|missing| {
         let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return Err(missing) };
@@ -222,7 +223,7 @@ fn temporary_folder(path: &Path) -> io::Result<TempDir> {
     temporary(0o777).tempdir_in(folder_of(path))
 }
 
-/// On Unix, the permissions are `mode` without the bits of the umask.
+/// On Unix, the permissions of the temporary file or folder are `mode` without the bits of the umask.
 fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Builder<'static, 'static> {
     let mut builder = Builder::new();
     builder.prefix(".sahara-");
@@ -233,10 +234,10 @@ fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Buil
 
 static TO_STDOUT: AtomicBool = AtomicBool::new(false);
 
-/// The first failure of standard output. A reader that closes the output causes no failure.
+/// The first error from a write to standard output. A broken pipe is not recorded.
 pub static FAILURE: OnceLock<io::Error> = OnceLock::new();
 
-/// Whether a result goes to [`STDOUT`]. Messages for people then go to standard error.
+/// Whether a result is written to standard output. If so, callers print messages to standard error.
 pub fn stdout_is_taken() -> bool {
     TO_STDOUT.load(Ordering::Relaxed)
 }
@@ -259,7 +260,7 @@ fn unless_gone(written: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Line breaks in file names are escaped: the error takes one line.
+/// Prints the error on one line. Control characters in the text are escaped.
 pub fn print_error(error: impl Display) {
     print_message(format_args!("error: {}", error.to_string().escaped()));
 }

@@ -1,4 +1,4 @@
-//! Whole numbers in sentences.
+//! Formats whole numbers for sentences.
 
 /// A whole number in groups of three digits: `130,858`.
 pub fn count(n: u64) -> String {

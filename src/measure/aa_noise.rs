@@ -1,19 +1,17 @@
-//! The A/A noise: the difference in time between two builds of the same structure.
+//! The A/A noise, estimated from the times of two builds of the same structure.
 
 use super::estimate::Estimate;
 use super::interval::{Rerun, epoch_values};
 use super::summary::{Variance, mean};
 
-/// One structure is built twice, and the two builds are timed as two structures. Without noise, the ratio of the two
-/// times is 1.
-///
-/// The **A/A noise** is the size of effects that vary between runs but not between epochs.
+/// The **A/A noise** is the size of timing effects that differ between runs, but not between the epochs of a run.
 ///
 /// # References
 /// Georges, Buytaert, Eeckhout: Statistically rigorous Java performance evaluation. 2007.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AaNoise {
-    /// One ratio per cell. The intervals do not include the A/A noise.
+    /// Each cell has one time ratio of two builds of the same structure. Without noise, each ratio is 1. The
+    /// confidence intervals of the ratios do not account for the A/A noise.
     pub ratios: Vec<Estimate>,
     noise: Variance,
 }
@@ -25,7 +23,7 @@ impl Default for AaNoise {
 }
 
 impl AaNoise {
-    /// Each cell contains the [log ratios](super::log_ratios) of a structure to its second build.
+    /// Each cell contains the [log ratios](super::log_ratios) of two builds of the same structure.
     pub fn new(cells: &[Vec<Vec<f64>>]) -> Self {
         let (mut ratios, mut squares) = (vec![], vec![]);
         for values in cells.iter().filter_map(|cell| epoch_values(std::slice::from_ref(cell))) {
@@ -36,8 +34,7 @@ impl AaNoise {
         if squares.is_empty() {
             return Self::default();
         }
-        // A single degree of freedom would make intervals several times as wide. So the number of epochs minus 1 is the
-        // minimum.
+        // `freedom` is at least the number of epochs minus 1, to avoid very wide intervals.
         let epochs = cells.iter().map(Vec::len).max().unwrap_or(0);
         let freedom = squares.len().max(epochs.saturating_sub(1)).max(1) as f64;
         Self { ratios, noise: Variance { square: mean(&squares).max(0.0), freedom } }
@@ -56,7 +53,7 @@ impl AaNoise {
         self.of_ratio().times(1.0 / libm::sqrt(cells.max(1) as f64))
     }
 
-    /// Each log time must belong to a different build.
+    /// The variance that the A/A noise adds to a weighted sum of log times. No two times may be of the same build.
     pub fn weighted(&self, weights: &[f64]) -> Variance {
         let squares: f64 = weights.iter().map(|weight| weight * weight).sum();
         self.noise.times(libm::sqrt(squares / 2.0))

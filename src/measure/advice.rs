@@ -3,14 +3,14 @@
 use super::{Provenance, machine};
 use crate::plural::plural;
 
-/// More interruptions per second mean that another program uses the core.
+/// Interruptions per second above this value indicate another program on the core.
 const INTERRUPTIONS: f64 = 20.0;
 
-/// A core whose clock rate falls below this fraction of its initial value is throttled.
+/// A clock rate below this fraction of the initial rate indicates throttling.
 const CLOCK_FALL: f64 = 0.9;
 
-/// `seconds` is the duration of the timed part. `interruptions` counts how often the system took the core from the
-/// measuring thread. `clock_rates` has the kHz at the beginning and at the end.
+/// `seconds` is the duration of the measurement. `interruptions` counts involuntary context switches of the measuring
+/// thread. `clock_rates` contains the clock rates at the beginning and at the end, in kHz.
 pub fn of_conditions(
     before: &Provenance,
     seconds: f64,
@@ -49,7 +49,7 @@ pub fn of_conditions(
     [debug, load, governor, clock, interruptions, denormals].into_iter().flatten().collect()
 }
 
-/// The plausible range of the elapsed time, as a multiple of the time that a runner reports.
+/// Plausible ratios of the elapsed time to the time that a runner reports.
 const OWN_CLOCK: std::ops::RangeInclusive<f64> = 0.95..=1.25;
 
 /// `outside` is the ratio of the elapsed time to the time that the runner `label` reports.

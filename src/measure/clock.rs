@@ -9,7 +9,7 @@ pub trait Clock {
     fn now_ns(&self) -> u64;
 }
 
-/// Times work and subtracts the cost of reading the clock.
+/// Measures durations without the cost of reading the clock.
 pub struct Stopwatch<'a> {
     clock: &'a dyn Clock,
     reading_ns: u64,
@@ -49,17 +49,17 @@ impl Clock for SystemClock {
     }
 }
 
-/// Processor time. The clock stops while another program, or the host of a virtual machine, uses the core.
+/// Processor time. The clock stops while another program uses the core.
 #[derive(Clone, Copy)]
 pub enum CpuClock {
-    /// The time of the calling thread, for passes.
+    /// The processor time of the calling thread.
     Thread,
-    /// The time of all threads of the process, for builds.
+    /// The processor time of all threads of the process.
     Process,
 }
 
 impl CpuClock {
-    /// `None` with several threads, or if the system has no such clock.
+    /// Returns `None` with several threads, or if the system does not have the clock.
     pub fn on(self, threads: &Threads) -> Option<Self> {
         (threads.count() == 1 && self.read_ns().is_some()).then_some(self)
     }

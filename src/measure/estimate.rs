@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::quantiles::{LEVEL, factor};
 use super::summary::Variance;
 
-/// An estimate with its 95 % [interval](mod@super::interval). A single epoch gives no interval.
+/// An estimate with its 95 % [interval](mod@super::interval).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Flat", into = "Flat")]
 pub struct Estimate {
@@ -17,7 +17,7 @@ pub struct Estimate {
 pub struct Interval {
     pub low: f64,
     pub high: f64,
-    /// Degrees of freedom of Student's t, infinite for a constant.
+    /// Degrees of freedom of Student's t, possibly infinite.
     pub freedom: f64,
 }
 
@@ -86,8 +86,7 @@ impl Estimate {
         Self { estimate: of(self.estimate), interval: self.interval.map(ends) }
     }
 
-    /// Widens the interval for `looks` estimates that are judged together (Bonferroni). With probability 95 %, all
-    /// `looks` intervals then contain their values.
+    /// Widens the interval for a joint confidence of 95 % over `looks` estimates (Bonferroni).
     pub fn among(self, looks: usize) -> Self {
         if looks < 2 {
             return self;
@@ -100,12 +99,12 @@ impl Estimate {
         Self { interval: self.interval.map(grown), ..self }
     }
 
-    /// The interval grows on a logarithmic scale.
+    /// Applies [`Self::among`] on a logarithmic scale.
     pub fn ratio_among(self, looks: usize) -> Self {
         self.map(libm::log).among(looks).map(libm::exp)
     }
 
-    /// The quotient of two positive estimates with independent errors. The squares of the relative errors add up.
+    /// The quotient of two positive estimates with independent errors.
     pub fn over(self, other: Self) -> Self {
         let log = libm::log(self.estimate / other.estimate);
         let part = |x: Self| {
@@ -157,7 +156,7 @@ mod tests {
         let quotient = tenth(15.0).over(tenth(10.0));
         let Interval { high, freedom, .. } = quotient.interval.unwrap();
         assert!((quotient.estimate - 1.5).abs() < 1e-12 && (freedom - 16.0).abs() < 1e-9);
-        // Student's t is 2.306 with eight degrees of freedom and 2.120 with sixteen.
+        // Student's t at 5 % is 2.306 with 8 degrees of freedom and 2.120 with 16.
         let expected = libm::log(1.1) * libm::sqrt(2.0) * 2.120 / 2.306;
         assert!((libm::log(high / 1.5) / expected - 1.0).abs() < 1e-3);
         assert_eq!(Estimate::exact(3.0).over(Estimate::exact(2.0)).high(), Some(1.5));

@@ -1,37 +1,37 @@
-//! Prediction intervals: the range of the same estimate in another run.
+//! Prediction intervals for the estimate of a second run.
 //!
-//! A 95 % confidence interval of a mean contains the estimate of a second run in only about 83 % of runs (Cumming,
+//! On average, a 95 % confidence interval contains the mean of a second run with a probability of only 83 % (Cumming,
 //! Williams, Fidler, "Replication and researchers' understanding of confidence intervals and standard error bars",
-//! 2004). A prediction interval contains the estimate of the second run in 95 % of runs.
+//! 2004). A 95 % prediction interval contains the mean of a second run with a probability of 95 %.
 //!
 //! **The model.** Each epoch is a separate process that rebuilds all structures. In each round of an epoch, every
-//! structure is timed once on every workload. For two structures, y is ln(first time / second time) in the same round.
-//! A process has one memory layout, so all rounds of an epoch share a placement effect (Kalibera, Jones, "Rigorous
-//! benchmarking in reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing
-//! anything obviously wrong", 2009).
+//! structure is timed once on every workload. For structures A and B on one workload, y is ln(time of A / time of B) in
+//! one round. All rounds of an epoch share the effect of one memory layout (Kalibera, Jones, "Rigorous benchmarking in
+//! reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing anything obviously
+//! wrong", 2009).
 //!
-//! **The estimate.** z(e) is the median of y over the rounds of epoch e. For several cells (scenes, workloads), z(e) is
-//! the mean of the medians of the cells. The estimate is exp(mean of z).
+//! **The estimate.** z(e) is the median of y over the rounds of epoch e. A cell is one workload of one scene. For
+//! several cells, z(e) is the mean of the medians of all cells. The estimate is the mean of z over all epochs.
 //!
-//! **The interval.** With E epochs, the estimate has the variance s^2 / E, where s^2 is the sample variance of z. The
+//! **The interval.** Let s^2 be the sample variance of z over E epochs. The variance of the estimate is s^2 / E. The
 //! difference between the estimates of two runs has the variance 2 s^2 / E. Student's t with E - 1 degrees of freedom
 //! gives the half-width t s sqrt(2 / E) (Hahn, Meeker, Escobar, "Statistical intervals", 2nd edition 2017, chapter 4:
 //! prediction of the mean of a future sample).
 //!
-//! **The A/A noise.** Some effects differ between runs, but not between the epochs of one run.
-//! [`AaNoise`](super::AaNoise) estimates these effects. The variance of these effects is added once for each of the two
-//! runs.
+//! **The A/A noise.** Some effects on the times vary between runs, not between the epochs of a run.
+//! [`AaNoise`](super::AaNoise) estimates the variance of these effects. The variance of the difference includes this
+//! variance once for each of the two runs.
 //!
-//! **Limits.** The intervals of epochs with one round are too narrow if many samples are interrupted.
+//! **Limits.** With one round per epoch, frequent long interruptions make the intervals too narrow.
 
 use super::estimate::{Estimate, Interval};
 use super::quantiles::{LEVEL, factor};
 use super::summary::{Variance, mean, median};
 
-/// Returns ln(numerator / denominator) of every round, by epoch. The samples are ordered by epoch and then by round.
+/// Returns ln(numerator / denominator) of every round, grouped by epoch. Both slices must be sorted by epoch.
 ///
 /// # Panics
-/// If the numbers of samples differ or are not a multiple of `epochs`, `epochs` is 0, or a sample is not positive.
+/// If `epochs` is 0, the slices differ in length, the length is no multiple of `epochs`, or a sample is not positive.
 pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<Vec<f64>> {
     assert_eq!(numerator.len(), denominator.len(), "samples come in pairs");
     assert!(epochs > 0 && numerator.len().is_multiple_of(epochs), "each epoch has the same number of rounds");
@@ -40,14 +40,13 @@ pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<
     logs.chunks((logs.len() / epochs).max(1)).map(<[f64]>::to_vec).collect()
 }
 
-/// A mean over cells needs the same epochs in each cell. The first epochs stay, because a choice by results would bias
-/// the mean.
+/// Truncates every cell to the length of the shortest cell.
 pub fn cut_to_shared_epochs(cells: &mut [Vec<Vec<f64>>]) {
     let fewest = cells.iter().map(Vec::len).min().unwrap_or(0);
     cells.iter_mut().for_each(|cell| cell.truncate(fewest));
 }
 
-/// Returns z(e) of every epoch. Each cell is a result of [`log_ratios`].
+/// Returns the z(e) of the [module documentation](self) for every epoch e. Each cell is a result of [`log_ratios`].
 ///
 /// # Panics
 /// If the cells differ in their number of epochs.
@@ -69,7 +68,7 @@ pub struct Rerun {
 }
 
 impl Rerun {
-    /// `values` has one value per epoch. `noise` is the variance that the [A/A noise](super::AaNoise) adds to one run.
+    /// `values` has one value per epoch. `noise` is the [A/A noise](super::AaNoise) of one run.
     pub fn of(values: &[f64], noise: Variance) -> Option<Self> {
         if values.is_empty() {
             return None;
@@ -79,7 +78,7 @@ impl Rerun {
         Some(Self { centre: mean(values), variance })
     }
 
-    /// `old` and `new` are the epoch values of two runs. `noises` has the variance that the A/A noise adds to each run.
+    /// `old` and `new` are the [`epoch_values`] of two runs. `noises` contains the A/A noise of each run.
     pub fn change(old: &[f64], new: &[f64], noises: [Variance; 2]) -> Option<Self> {
         if old.is_empty() || new.is_empty() {
             return None;
@@ -89,7 +88,6 @@ impl Rerun {
         Some(Self { centre: mean(new) - mean(old), variance })
     }
 
-    /// The same variance around `centre`, an estimate from more epochs.
     #[must_use]
     pub fn around(self, centre: f64) -> Self {
         Self { centre, ..self }

@@ -1,4 +1,4 @@
-//! Facts about the machine. Unknown facts are `None`.
+//! Facts about the machine.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-/// The load average of the last minute, read at the first call. Later values include the load of this process.
+/// The one-minute load average at the first call. A later value would include the load of this process.
 pub fn load_at_start() -> Option<f64> {
     static LOAD: OnceLock<Option<f64>> = OnceLock::new();
     *LOAD.get_or_init(|| first_number(&fs::read_to_string("/proc/loadavg").ok()?))
@@ -17,12 +17,12 @@ pub fn governor(core: usize) -> Option<String> {
     Some(fs::read_to_string(path).ok()?.trim().to_owned())
 }
 
-/// The present clock rate of a core, kHz.
+/// The current clock rate of a core in kHz.
 pub fn clock_rate(core: usize) -> Option<f64> {
     first_number(&fs::read_to_string(format!("/sys/devices/system/cpu/cpu{core}/cpufreq/scaling_cur_freq")).ok()?)
 }
 
-/// Bytes of memory that this process may use. Control groups (containers, cluster jobs) may limit the memory.
+/// The memory of the machine or a smaller limit of a control group, in bytes.
 pub fn memory() -> Option<u64> {
     let machine = || {
         let text = fs::read_to_string("/proc/meminfo").ok()?;
@@ -30,12 +30,12 @@ pub fn memory() -> Option<u64> {
         Some(kib as u64 * 1024)
     };
     let groups = limits(&fs::read_to_string("/proc/self/cgroup").unwrap_or_default());
-    // Without a limit, the file contains a word instead of a number.
+    // Without a limit, `memory.max` contains the word `max`.
     let limit = |file: &PathBuf| fs::read_to_string(file).ok()?.trim().parse().ok();
     machine().into_iter().chain(groups.iter().filter_map(limit)).min()
 }
 
-/// `groups` is the content of `/proc/self/cgroup`. Inside a container, some of the returned files do not exist.
+/// `groups` is the content of `/proc/self/cgroup`. Inside a container, some of the returned files may not exist.
 fn limits(groups: &str) -> Vec<PathBuf> {
     let files = |line: &str| {
         let mut fields = line.splitn(3, ':').skip(1);
@@ -64,7 +64,7 @@ pub fn interruptions() -> Option<u64> {
     None
 }
 
-/// Idle clock ticks of each core during the next `time`.
+/// Counts the idle clock ticks of each core during a sleep of length `time`.
 pub(super) fn idle_ticks(time: Duration) -> BTreeMap<usize, u64> {
     let read = || fs::read_to_string("/proc/stat").map(|text| idle(&text)).unwrap_or_default();
     let before = read();
@@ -86,7 +86,7 @@ fn first_number(text: &str) -> Option<f64> {
     text.split_whitespace().next()?.parse().ok()
 }
 
-/// MXCSR, the control word of floating-point arithmetic, without its sticky exception flags.
+/// The floating-point control register MXCSR without the exception flags.
 #[cfg(target_arch = "x86_64")]
 pub fn mxcsr() -> Option<u32> {
     let mut word = 0_u32;
@@ -138,7 +138,7 @@ mod tests {
         assert_eq!(denormals(Some(0x9f80)), "results flushed to zero");
         assert_eq!(denormals(Some(0x9fc0)), "denormal operands read as zero, results flushed to zero");
         assert_eq!(denormals(None), "unknown");
-        // No code may flush denormals, because hits would differ between machines.
+        // Flushing denormals could change hits.
         assert!(matches!(denormals(mxcsr()), "kept" | "unknown"));
     }
 }

@@ -1,10 +1,10 @@
-//! The peak memory of a piece of work.
+//! Measures the peak memory of a function call.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Counts allocations during [`peak_bytes`]. Allocations of C and C++ code are not counted.
+/// Counts allocated bytes during [`peak_bytes`]. Allocations of C and C++ code are not counted.
 pub struct CountingAllocator;
 
 static COUNTS: AtomicBool = AtomicBool::new(false);
@@ -21,18 +21,18 @@ impl CountingAllocator {
     }
 }
 
-// SAFETY: every method passes its arguments unchanged to `System`, which fulfils the contract of `GlobalAlloc`.
+// SAFETY: every method passes its arguments unchanged to `System`. `System` fulfils the contract of `GlobalAlloc`.
 // Counting neither allocates nor panics.
 unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         Self::add(layout.size() as isize);
-        // SAFETY: the caller fulfils the contract of `GlobalAlloc::alloc`, and `System` has the same contract.
+        // SAFETY: the caller fulfils the contract of `GlobalAlloc::alloc`. `System.alloc` has the same contract.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         Self::add(-(layout.size() as isize));
-        // SAFETY: as in `alloc`. `pointer` comes from `System`, because all methods here allocate with `System`.
+        // SAFETY: as in `alloc`. All methods of this type allocate with `System`, so `pointer` comes from `System`.
         unsafe { System.dealloc(pointer, layout) }
     }
 
@@ -49,8 +49,8 @@ unsafe impl GlobalAlloc for CountingAllocator {
     }
 }
 
-/// Returns the peak increase of allocated bytes on all threads. The peak is `None` if the [`CountingAllocator`] is not
-/// installed.
+/// Returns the result of `work` and the peak increase of allocated bytes. The peak includes allocations of all threads.
+/// Without an installed [`CountingAllocator`], the peak is `None`.
 pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     static ONE: Mutex<()> = Mutex::new(());
     /// Stops the counter on drop, also after a panic.
@@ -66,7 +66,7 @@ pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     PEAK.store(0, Ordering::Relaxed);
     COUNTS.store(true, Ordering::Relaxed);
     let counting = Counting;
-    // An installed allocator counts this allocation.
+    // Only an installed `CountingAllocator` counts this allocation.
     drop(std::hint::black_box(Box::new(0_u64)));
     let installed = PEAK.load(Ordering::Relaxed) > 0;
     let result = work();
@@ -81,11 +81,9 @@ mod tests {
 
     #[test]
     fn the_peak_is_the_most_at_once() {
-        // The test program does not install the allocator.
         let of = |bytes| Layout::from_size_align(bytes, 8).unwrap();
         let (counted, peak) = peak_bytes(|| {
-            // SAFETY: no layout has size 0, no pointer is dereferenced, and every block is freed with its current
-            // layout.
+            // SAFETY: no layout has size 0. No pointer is dereferenced. Every block is freed with its current layout.
             unsafe {
                 let (a, b) = (CountingAllocator.alloc(of(1000)), CountingAllocator.alloc_zeroed(of(500)));
                 CountingAllocator.dealloc(a, of(1000));

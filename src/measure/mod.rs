@@ -1,4 +1,4 @@
-//! Measuring: clocks, samples in random order with checked results, estimates with intervals, provenance.
+//! Measurements: clocks, samples, estimates with intervals, provenance.
 
 mod aa_noise;
 pub mod advice;

@@ -10,7 +10,7 @@ impl RandomOrder {
         Self(Pcg64Mcg::seed_from_u64(seed))
     }
 
-    /// A uniform number below `n`, with a bias below `n` / 2^64.
+    /// A uniform random integer below `n`. The probability of each integer has a relative error below `n` / 2^64.
     ///
     /// # Panics
     /// If `n` is 0.
@@ -19,7 +19,7 @@ impl RandomOrder {
         ((u128::from(self.0.next_u64()) * n as u128) >> 64) as usize
     }
 
-    /// The numbers below `n` in random order (Fisher, Yates 1938; Durstenfeld 1964).
+    /// Returns the integers `0..n` in random order (Fisher, Yates 1938; Durstenfeld 1964).
     pub fn shuffled(&mut self, n: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..n).collect();
         for last in (1..n).rev() {
@@ -28,7 +28,7 @@ impl RandomOrder {
         order
     }
 
-    /// `groups` contains the group of each member. The members of a group follow one another.
+    /// `groups` contains the group of each member. In the result, the members of a group are consecutive.
     pub fn shuffled_by_group(&mut self, groups: &[usize]) -> Vec<usize> {
         let ranks = self.shuffled(groups.iter().max().map_or(0, |last| last + 1));
         let mut order = self.shuffled(groups.len());
@@ -39,12 +39,12 @@ impl RandomOrder {
 
 #[cfg(test)]
 impl RandomOrder {
-    /// A number strictly between 0 and 1.
+    /// A uniform random number strictly between 0 and 1.
     pub fn uniform(&mut self) -> f64 {
         (self.below(1 << 30) as f64 + 0.5) / f64::from(1 << 30)
     }
 
-    /// A standard normal number (Box, Muller 1958).
+    /// A random number with standard normal distribution (Box, Muller 1958).
     pub fn normal(&mut self) -> f64 {
         let (radius, turn) = (self.uniform(), self.uniform());
         libm::sqrt(-2.0 * libm::log(radius)) * libm::cos(std::f64::consts::TAU * turn)
@@ -66,7 +66,7 @@ mod tests {
         }
         let is_order = |order: &Vec<usize>| (0..3).all(|i| order.contains(&i));
         assert!(counts.len() == 6 && counts.keys().all(is_order), "{counts:?}");
-        // The count of each order has mean 1000. Five standard deviations are 144.
+        // The count of each order has mean 1000. Five standard deviations of the count are 144.
         assert!(counts.values().all(|&n| (856..=1144).contains(&n)), "{counts:?}");
     }
 

@@ -1,4 +1,4 @@
-//! Times one structure on one workload in this process.
+//! Measures the time of one structure on one workload in this process.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -12,15 +12,15 @@ use super::{RandomOrder, Stopwatch, Threads, Timed};
 use crate::accel::{DynAccel, Loaded, Query};
 use crate::geometry::Ray;
 
-/// At most [`TILE`] neighbouring rays, which are traced in one call.
+/// At most [`TILE`] consecutive rays, traced in one call.
 struct Piece<'a> {
     rays: Box<dyn Loaded + 'a>,
     count: usize,
-    /// One bit per chosen [level](super::tiles) whose time includes this piece. 0 for an untimed lead-in.
+    /// Bit `i` is set if the `i`-th chosen [level](super::tiles) contains this piece. A lead-in piece has no bit set.
     levels: u32,
 }
 
-/// Stores the results from index `first` on. Returns the index after the last result.
+/// Stores the results of `pieces` in `results`, starting at index `first`. Returns the index after the stored results.
 fn query_all(results: &mut QueryResults, first: usize, pieces: &[Piece]) -> usize {
     pieces.iter().fold(first, |first, piece| {
         results.query(first..first + piece.count, piece.rays.as_ref());
@@ -40,8 +40,8 @@ fn share(results: &mut QueryResults, pieces: &[&Piece], threads: &Threads) {
     }
 }
 
-/// Selects a pseudo-random item of each of `count` ranges of about equal length. Items at equal distances could lie in
-/// only a few columns of an image.
+/// Divides `all` into `count` ranges of about equal length. Selects one pseudo-random item per range. Equally spaced
+/// rays could lie in only a few columns of an image.
 pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     if count >= all.len() {
         return all.to_vec();
@@ -51,9 +51,8 @@ pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     (0..count).map(|i| all[part(i) + random.below(part(i + 1) - part(i))]).collect()
 }
 
-/// A pass begins with an untimed lead-in over the last rays of the workload. The lead-in brings caches and branch
-/// predictors into the state of this structure. On one thread, a tile that does not adjoin the previous tile also has a
-/// short lead-in.
+/// A pass begins with an untimed lead-in over the final rays of the workload. The lead-in warms the caches and branch
+/// predictors for this structure.
 pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
     threads: &'a Threads,
@@ -64,27 +63,27 @@ pub struct Pass<'a> {
     levels: usize,
     results: QueryResults,
     lead_in_results: QueryResults,
-    /// The number of lead-in rays, and the checksum of their results. `None` if a pass traces only a subset.
+    /// The number of lead-in rays and the checksum of the lead-in results. `Some` only if all rays are timed.
     lead_in_checksum: Option<(usize, u64)>,
-    /// Picoseconds per ray. `u128::MAX` without a lead-in, so tiles have no lead-in.
+    /// Picoseconds per lead-in ray. The initial `u128::MAX` disables the lead-ins of tiles.
     lead_in_ps: u128,
-    /// Whether the last `clear` filled the results with hits. `clear` alternates between hits and misses, so missing
-    /// results change the checksum.
+    /// Whether the most recent `clear` filled the results with hits. `clear` alternates between hits and misses, so
+    /// unwritten results change the checksum.
     filled: bool,
 }
 
-/// The lead-in of a pass has an eighth of the rays of the workload.
+/// The lead-in of a pass has 1 / `LEAD_IN_SHARE` of the rays of the workload.
 pub(super) const LEAD_IN_SHARE: usize = 8;
 
-/// Time limit of the lead-in if only a subset of the rays is timed. Slow structures need fewer rays to fill the caches.
+/// On one thread, the lead-in before a subset of the rays stops after this time.
 const LEAD_IN: Duration = Duration::from_millis(10);
 
-/// Caches load the data of a tile within this time.
+/// Limit of the estimated time of the lead-in of a tile.
 const TILE_LEAD_IN_NS: u128 = 200_000;
 
 impl<'a> Pass<'a> {
     /// # Panics
-    /// If there are no rays.
+    /// If `rays` is empty.
     pub fn new(accel: &'a dyn DynAccel, rays: &'a [Ray], query: Query, threads: &'a Threads) -> Self {
         assert!(!rays.is_empty(), "a pass needs at least one ray");
         let mut pass = Self {
@@ -109,7 +108,8 @@ impl<'a> Pass<'a> {
         Piece { rays: self.accel.load(Cow::Borrowed(&self.all[first..first + count])), count, levels }
     }
 
-    /// Each piece has half of the remaining rays, so a slow structure can skip the first pieces.
+    /// Returns the lead-in of the tile that starts at `end`. Each piece has about half of the remaining
+    /// lead-in rays.
     fn before(&self, end: usize) -> impl Iterator<Item = Piece<'a>> {
         let count = TILE.min(self.all.len());
         let mut rest = if end < count { self.all.len() - count..self.all.len() } else { end - count..end };
@@ -151,7 +151,7 @@ impl Timed for Pass<'_> {
             }
         }
 
-        // If only a subset is timed, the first pieces are small, so a slow structure can stop early.
+        // The lead-in before a subset begins with small pieces, so a slow lead-in can stop early.
         let lead_in = self.all.len() / LEAD_IN_SHARE;
         let mut first = self.all.len() - lead_in;
         let mut size = if levels[0] == 0 { TILE } else { 1 };
@@ -189,7 +189,7 @@ impl Timed for Pass<'_> {
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.levels];
         if self.threads.count() > 1 {
-            // The first level runs last, because `checksum` reads its results.
+            // The loop ends with `level` 0, because `checksum` must read the results of `level` 0.
             for level in (0..self.levels).rev() {
                 let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;
                 let pieces: Vec<&Piece> = self.pieces.iter().filter(of_level).collect();

@@ -1,7 +1,7 @@
-//! Ends a program together with all programs that it has started.
+//! Ends a program and the descendants of the program.
 //!
-//! On Linux, each program leads a separate process group, and Ctrl-C reaches only this process. On other systems, only
-//! the program itself is killed, and Ctrl-C reaches the program as well.
+//! On Linux, each program leads a separate process group, so Ctrl-C does not reach the program. On other systems,
+//! Ctrl-C reaches the program. On other systems, the descendants are not killed.
 
 use std::io::{self, Read};
 #[cfg(target_os = "linux")]
@@ -21,16 +21,16 @@ use nix::{
 #[cfg(target_os = "linux")]
 pub fn lead_process_group(command: &mut Command) {
     command.process_group(0);
-    // A program inherits the signal mask of this process, which blocks some signals.
-    // SAFETY: between fork and exec, only async-signal-safe calls are sound. The closure calls only `pthread_sigmask`.
-    // The error is a number, so the closure does not allocate.
+    // Without `pre_exec`, the program would inherit the blocked signals of this thread.
+    // SAFETY: between fork and exec, only async-signal-safe calls are sound. The closure calls only `sigemptyset`
+    // and `pthread_sigmask`. The conversion of the error does not allocate.
     unsafe { command.pre_exec(|| Ok(SigSet::empty().thread_set_mask()?)) };
 }
 
 #[cfg(not(target_os = "linux"))]
 pub fn lead_process_group(_: &mut Command) {}
 
-/// The caller must still wait for the program.
+/// The caller must still reap the child.
 #[cfg(target_os = "linux")]
 fn has_ended(child: &mut Child) -> bool {
     state(child) != Ok(WaitStatus::StillAlive)
@@ -43,7 +43,7 @@ fn has_ended(child: &mut Child) -> bool {
 
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// The caller must still wait for the program.
+/// The caller must still reap the child.
 pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
     let start = Instant::now();
     while !has_ended(child) {
@@ -55,10 +55,10 @@ pub fn ends_within(child: &mut Child, limit: Duration) -> bool {
     true
 }
 
-/// Returns `None` after `limit`, and kills the program with all programs that it has started.
+/// Returns `None` if the program does not end within `limit`. The function calls [`end`] in every case.
 ///
 /// # Errors
-/// If the program cannot be started or waited for, or its output cannot be read.
+/// If the program cannot be started, the wait for the program fails, or the output cannot be read.
 pub fn output_within(command: &mut Command, limit: Duration) -> io::Result<Option<Output>> {
     lead_process_group(command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()));
     let mut child = command.spawn()?;
@@ -81,16 +81,16 @@ fn drain(pipe: &mut dyn Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Linux only. A leftover process would disturb the next run.
+/// On Linux, the system kills this process when the parent thread ends.
 pub fn end_with_parent() {
     #[cfg(target_os = "linux")]
     let _ = nix::sys::prctl::set_pdeathsig(Signal::SIGKILL);
 }
 
-/// Kills a program that [`lead_process_group`] prepared, and all programs that it has started. Does nothing if the
-/// program has already been waited for.
+/// Kills a program and the descendants of the program. [`lead_process_group`] must have prepared the command. The call
+/// has no effect on a reaped child.
 pub fn end(child: &mut Child) {
-    // The system does not reuse the number of a child process before its parent has waited for it.
+    // The system does not reuse the process id of a child before the child is reaped.
     #[cfg(target_os = "linux")]
     if state(child) != Err(Errno::ECHILD) {
         end_group(child.id());
@@ -98,7 +98,7 @@ pub fn end(child: &mut Child) {
     let _ = child.kill();
 }
 
-/// A program that leads a process group is killed with its group.
+/// Kills the descendants of `process`. A descendant that leads a process group is killed with the group.
 #[cfg(target_os = "linux")]
 pub fn end_started_by(process: u32) {
     let threads = std::fs::read_dir(format!("/proc/{process}/task")).into_iter().flatten().flatten();
@@ -114,7 +114,7 @@ fn end_group(first: u32) {
     let _ = killpg(first, Signal::SIGKILL).or_else(|_| kill(first, Signal::SIGKILL));
 }
 
-/// Fails with `ECHILD` if the program has already been waited for.
+/// The error is `ECHILD` if the child has already been reaped.
 #[cfg(target_os = "linux")]
 fn state(child: &Child) -> nix::Result<WaitStatus> {
     let looks = WaitPidFlag::WEXITED | WaitPidFlag::WNOHANG | WaitPidFlag::WNOWAIT;
@@ -165,7 +165,7 @@ mod tests {
         assert_eq!(output.stdout, b"done\n");
     }
 
-    /// The pipes stay open until the last program ends.
+    /// Both `sleep` processes keep the pipes open.
     #[test]
     fn what_takes_too_long_is_killed_with_all_that_it_started() {
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! The running program: its identity and its start.
+//! The identity and the start time of the running program.
 
 use std::fs::File;
 use std::io;
@@ -8,8 +8,7 @@ use std::time::SystemTime;
 
 use sha2::{Digest, Sha256};
 
-/// The first 16 digits of the SHA-256 of the running program. Another source, compiler or flag gives other digits, even
-/// without a new commit.
+/// The first 16 hexadecimal digits of the SHA-256 of the executable file.
 pub fn build() -> &'static str {
     static BUILD: OnceLock<String> = OnceLock::new();
     BUILD.get_or_init(|| file_id(&executable()).unwrap_or_else(|_| "unknown".into()))
@@ -39,7 +38,7 @@ pub fn file_sha256(path: &Path) -> io::Result<String> {
     Ok(format!("{:x}", hasher.finalize()))
 }
 
-/// The time of the first call in UTC, such as `2026-03-01T12:30:59Z`.
+/// The time of the first call of this function, in UTC, such as `2026-03-01T12:30:59Z`.
 pub fn started() -> &'static str {
     static STARTED: OnceLock<String> = OnceLock::new();
     STARTED.get_or_init(|| humantime::format_rfc3339_seconds(SystemTime::now()).to_string())

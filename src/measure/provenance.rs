@@ -29,19 +29,18 @@ pub struct Provenance {
     pub cores: usize,
     pub threads: usize,
     pub os: String,
-    /// Version of obvhs, whose structures are the references of comparisons between runs.
+    /// Version of the crate obvhs.
     pub obvhs: String,
-    /// The clock of samples: `cpu` for processor time of the thread, or `elapsed`.
+    /// `cpu` if samples are processor times, `elapsed` otherwise.
     pub clock: String,
     /// The core of each thread.
     pub pinned: Option<Vec<usize>>,
-    /// Whether each timed epoch of a scene was measured in a separate process.
     pub process_per_epoch: bool,
     pub mxcsr: Option<u32>,
-    /// Only `kept` is correct.
+    /// `kept` if the processor replaces no denormal number with zero.
     pub denormals: String,
     pub governor: Option<String>,
-    /// Load average of the last minute before the run.
+    /// The one-minute load average at the start of the run.
     pub load: Option<f64>,
 }
 
@@ -82,7 +81,7 @@ impl Provenance {
         Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 
-    /// The facts that affect the speed of a program. Hosts with equal facts count as one machine.
+    /// Hosts count as one machine if all returned fields are equal.
     pub fn machine(&self) -> Map<String, Value> {
         let facts = "version commit build rustc profile target_features simd cpu threads process_per_epoch";
         let all = serde_json::to_value(self).expect("keys are text");
@@ -100,7 +99,7 @@ impl Provenance {
         })
     }
 
-    /// Libraries without run-time dispatch use only instruction sets that the build enables.
+    /// A target feature that `simd` needs but the build does not enable.
     fn lacking(&self) -> Option<&'static str> {
         let needed = match self.simd.as_str() {
             "avx512" => "avx512f",

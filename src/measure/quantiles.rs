@@ -5,14 +5,16 @@ use std::cell::Cell;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use statrs::function::beta::beta_reg;
 
-/// The probability that an interval does not contain its value.
+/// The probability that an interval does not contain the true value.
 pub const LEVEL: f64 = 0.05;
 
-/// The half-width of an interval that does not contain its value with probability `level`. The unit is one standard
-/// error with `freedom` degrees of freedom (Student, "The probable error of a mean", 1908).
+/// The half-width of an interval, in standard errors (Student, "The probable error of a mean", 1908).
+///
+/// `freedom` is the number of degrees of freedom. `level` is the probability that the interval does not contain the
+/// true value.
 ///
 /// # Panics
-/// If `freedom` is less than 1, or `level` does not lie between a millionth and 1.
+/// If `freedom` is below 1, or `level` is outside the range `1e-6..1.0`.
 pub fn factor(freedom: f64, level: f64) -> f64 {
     assert!(freedom >= 1.0, "an interval needs a degree of freedom");
     assert!((1e-6..1.0).contains(&level), "the level must be at least 1e-6 and below 1");
@@ -28,9 +30,9 @@ pub fn factor(freedom: f64, level: f64) -> f64 {
     factor
 }
 
-/// For many degrees of freedom, `statrs` is inaccurate or does not return. The function then uses the series of Cornish
-/// and Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5). The relative error is below
-/// 1e-10.
+/// For many degrees of freedom, `statrs` is inaccurate or does not return. Above 1000 degrees of freedom, `quantile`
+/// uses the series of Cornish and Fisher (Abramowitz, Stegun, "Handbook of mathematical functions", 1964, 26.7.5). The
+/// relative error of the result is below 1e-10.
 fn quantile(freedom: f64, level: f64) -> f64 {
     const MANY: f64 = 1000.0;
     if freedom <= MANY {
@@ -47,12 +49,12 @@ fn quantile(freedom: f64, level: f64) -> f64 {
     z * (1.0 + terms.iter().rev().fold(0.0, |sum, term| (sum + term) / freedom))
 }
 
-/// The relative error is below 1e-5 for parameters up to 10^9 if `probability` is 0.95. For a `probability` of at most
-/// 0.5, this bound requires parameters up to 10^5. The function bisects, because the quantile function of `statrs` may
-/// be inaccurate or not return.
+/// For a `probability` of 0.95, the relative error is below 1e-5 for `a` and `b` up to 1e9. For a `probability` of at
+/// most 0.5, the relative error is below 1e-5 for `a` and `b` up to 1e5.
+///
+/// `beta_quantile` bisects, because the quantile function of `statrs` may never return.
 pub fn beta_quantile(probability: f64, a: f64, b: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
-    // Bisection of the exponent gives quantiles near 0 the same relative precision.
     while high > 1e-300 && beta_reg(a, b, high * 0.5) > probability {
         high *= 0.5;
     }
@@ -75,7 +77,7 @@ mod tests {
 
     #[test]
     fn the_factors_are_students() {
-        // Computed by bisection of the incomplete beta function with 30 digits.
+        // These factors were computed by bisection of the incomplete beta function with 30 digits.
         let computed = [
             (1.0, 0.05, 12.7062047361747),
             (1.0, 1e-6, 636619.7723670577),
@@ -117,7 +119,8 @@ mod tests {
         for n in [1e7, 1e9] {
             close(beta_quantile(0.95, 1.0, n), -libm::expm1(libm::log(0.05) / n), 1e-5);
         }
-        // The distribution is nearly normal. The quantile is 1.645 standard deviations above one half.
+        // For large `n`, the beta distribution with the parameters `n` and `n` is nearly normal. The 0.95 quantile of
+        // a normal distribution is 1.645 standard deviations above the mean.
         for n in [1e3, 1e5, 1e7, 1e9] {
             let deviation = 0.5 / libm::sqrt(2.0 * n + 1.0);
             close(beta_quantile(0.95, n, n), 0.5 + 1.644_853_627 * deviation, deviation / n + 1e-9);

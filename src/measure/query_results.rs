@@ -1,4 +1,4 @@
-//! The results of a batch of rays, for either query.
+//! The results of a batch of closest-hit or any-hit queries.
 
 use std::ops::Range;
 
@@ -49,7 +49,7 @@ impl QueryResults {
     }
 }
 
-/// The FNV-1a hash of numbers (Fowler, Noll, Vo).
+/// The FNV-1a hash (Fowler, Noll, Vo) over 64-bit words instead of bytes.
 pub fn checksum(numbers: impl Iterator<Item = u64>) -> u64 {
     numbers.fold(0xcbf2_9ce4_8422_2325, |sum, number| (sum ^ number).wrapping_mul(0x0000_0100_0000_01b3))
 }

@@ -9,7 +9,7 @@ pub struct Cost {
     pub rays: usize,
     /// Picoseconds per ray.
     pub ps: u64,
-    /// Cases with the same number are timed on the same number of rays.
+    /// Cases of one group are timed on equally many rays.
     pub group: usize,
 }
 
@@ -18,16 +18,16 @@ pub struct Allotment {
     pub runs: usize,
     /// The [level](super::tiles) of each case.
     pub levels: Vec<usize>,
-    /// The time limit of a sample of a case with an unknown cost, ns.
+    /// The time limit for one sample of a case with unknown cost, ns.
     pub share_ns: u64,
 }
 
-/// The result depends only on the arguments, so all epochs have the same result.
+/// The result does not depend on `plan.epoch` or `plan.seed`.
 pub fn allot(cases: &[Cost], plan: &SamplePlan) -> Allotment {
     let mut levels: Vec<usize> = cases.iter().map(|case| level_within(case.rays, plan.most_rays)).collect();
     let cost = |case: usize, level: usize| {
         let Cost { rays, ps, .. } = cases[case];
-        // The lead-in adds an eighth.
+        // The lead-in, which warms the caches, adds an eighth to the cost.
         (rays_at(rays, level) as u128 * u128::from(ps) * 9 / 8 / 1000) as u64
     };
 
@@ -54,17 +54,19 @@ pub fn allot(cases: &[Cost], plan: &SamplePlan) -> Allotment {
     Allotment { runs, levels, share_ns }
 }
 
-/// The minimum number of rays of the pilot pass, which measures a case's cost per ray.
+/// A pilot is a pass that measures the cost per ray. [`pilot_level`] selects at least this many rays if the workload
+/// has enough rays.
 const PILOT: usize = 64;
 
-/// A pilot of this length measures the cost accurately enough.
+/// A pilot that takes this long measures the cost per ray accurately enough.
 const LONG_PILOT_NS: u64 = 5_000_000;
 
 pub fn pilot_level(rays: usize) -> usize {
     (0..=last_level(rays)).rev().find(|&level| rays_at(rays, level) >= PILOT).unwrap_or(0)
 }
 
-/// Finds the first level, `from` or later, at which a sample takes at most `most_ns`.
+/// The smallest level number, at least `from`, at which a sample takes at most `most_ns`. If samples take longer at
+/// every level, the result is the last level.
 pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most_ns: u64) -> usize {
     let all = case.rays();
     let mut pace = |level: usize| {
@@ -73,13 +75,13 @@ pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most
         let ns = case.run(watch)[0].max(1);
         (u128::from(ns) * 1000 / rays_at(all, level) as u128).max(1)
     };
-    // If the first pass is too short for a good estimate, a longer pass follows.
+    // If the first pilot is too short for a good estimate, a longer pilot follows.
     let few = pilot_level(all).max(from);
     let first = pace(few);
     let rays = u128::from(LONG_PILOT_NS) * 1000 / first;
     let enough = (from..few).rev().find(|&level| rays_at(all, level) as u128 >= rays).unwrap_or(from);
     let ps = if enough < few && rays > rays_at(all, few) as u128 { pace(enough) } else { first };
-    // The factor 19 / 8 includes the lead-in (1 / 8), the next level (1 / 4) and a first pass.
+    // 19 / 8 = 1 (timed pass) + 1 (warm-up pass) + 1 / 4 (next level) + 1 / 8 (lead-in).
     let fits = |level: &usize| rays_at(all, *level) as u128 * ps * 19 / 8 / 1000 <= u128::from(most_ns);
     let last = last_level(all);
     (from..last).find(fits).unwrap_or(last.max(from))
@@ -104,7 +106,8 @@ mod tests {
     #[test]
     fn the_slow_do_with_fewer_rays_then_all_with_fewer_samples_and_then_with_fewer_rays() {
         let of = |budget_ns| rays(&cases(&[10, 15, 10_000]), &SamplePlan { budget_ns, ..PLAN });
-        // With lead-ins, all rays take 1.84 ms in the two fast cases, and 737 ms in the slow case.
+        // With all rays and lead-ins, the two fast cases would take 1.84 ms together. With all rays and a lead-in, the
+        // slow case would take 737 ms.
         assert_eq!(of(4_000_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(24_000_000), (5, vec![65_536, 65_536, 256]));
         assert_eq!(of(12_000_000), (2, vec![65_536, 65_536, 256]));
@@ -129,7 +132,7 @@ mod tests {
     fn what_is_not_known_gets_a_share_of_the_budget_and_no_more_than_the_slowest_may_take() {
         let share =
             |slowest, budget_ns| allot(&cases(&[100, 100]), &SamplePlan { slowest, budget_ns, ..PLAN }).share_ns;
-        // 65,536 rays of 100 ns and their lead-in take 7.37 ms.
+        // At 100 ns per ray, 65,536 rays with a lead-in take 7.37 ms.
         assert_eq!(share(4.0, u64::MAX), 4 * 7_372_800);
         assert_eq!(share(f64::INFINITY, 1_000_000_000), 100_000_000);
         assert_eq!(share(f64::INFINITY, u64::MAX), u64::MAX / 10);

@@ -1,4 +1,4 @@
-//! Times one structure on one workload in a separate process.
+//! Timed passes of a structure that runs in a separate process.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -14,8 +14,8 @@ use crate::geometry::Ray;
 /// `None` if the pass has not failed.
 pub type Failure = Rc<RefCell<Option<String>>>;
 
-/// Each request takes time, so the structure receives all rays of a level at once. The structure measures the time
-/// itself. A failure is stored and does not end the run.
+/// Every request to the process takes time, so one request contains all rays of a level. The process measures the time
+/// of the pass.
 pub struct RemotePass<'a> {
     accel: &'a dyn DynAccel,
     remote: &'a dyn Remote,
@@ -26,7 +26,7 @@ pub struct RemotePass<'a> {
     lead_in: Option<RayBatch<'a>>,
     results: QueryResults,
     lead_in_results: QueryResults,
-    /// Whether the lead-in was traced, and the pass includes all rays of the lead-in.
+    /// Whether `lead_in_results` can be compared with `results`.
     has_led_in: bool,
     is_warm: bool,
     failure: Failure,
@@ -101,8 +101,7 @@ impl Timed for RemotePass<'_> {
     }
 
     fn lead_in(&mut self) {
-        // The tiles of a subset may lie far from the rays of the lead-in. So the timed rays are traced once to warm the
-        // caches.
+        // An untimed first pass over batch 0 warms the caches.
         if !self.is_warm && !self.has_failed() {
             self.batches[0].query(&mut self.results);
             self.is_warm = true;
@@ -115,7 +114,7 @@ impl Timed for RemotePass<'_> {
 
     fn run(&mut self, _: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.batches.len()];
-        // The first level runs last, because `checksum` reads its results.
+        // The loop ends with batch 0, because `checksum` must read the results of batch 0.
         for (batch, ns) in self.batches.iter().zip(&mut ns).rev() {
             if self.has_failed() {
                 break;

@@ -1,4 +1,4 @@
-//! Takes interleaved samples of many cases. In `measure`, a case is one structure on one workload.
+//! Takes interleaved samples of many cases. A case is one structure on one workload.
 
 use super::tiles::{last_level, level_of, rays_at};
 use super::{Clock, RandomOrder, Stopwatch};
@@ -8,11 +8,11 @@ pub trait Timed {
     /// Rays of the workload, at least 1.
     fn rays(&self) -> usize;
 
-    /// Selects the rays of later passes: the [`tiles`](super::tiles::tiles) of the first level. The rays of each
-    /// further level must be a subset of these rays.
+    /// Later passes trace the [`tiles`](super::tiles::tiles) of `levels[0]`. The rays of every further level must be a
+    /// subset of the rays of `levels[0]`.
     fn choose(&mut self, levels: &[usize], epoch: usize);
 
-    /// Overwrites all results before a pass, so a pass that does nothing is detected.
+    /// Discards the results of the previous pass.
     fn clear(&mut self);
 
     /// Warms caches and branch predictors before a timed pass.
@@ -23,7 +23,7 @@ pub trait Timed {
 
     fn checksum(&self) -> u64;
 
-    /// Whether the pass and its lead-in gave the same rays different results.
+    /// Whether a ray had one result in the lead-in and another result in the pass.
     fn contradicts_itself(&self) -> bool;
 }
 
@@ -31,10 +31,9 @@ pub trait Timed {
 pub struct SamplePlan {
     /// The maximum number of samples per case and epoch, at least 1.
     pub runs: usize,
-    /// Time for the samples of all cases in an epoch, ns. A short budget first reduces the number of samples, and then
-    /// the number of rays.
+    /// Time limit for the samples of all cases in one epoch, ns.
     pub budget_ns: u64,
-    /// Cases that take more than this multiple of the median case are timed on fewer rays.
+    /// The maximum ratio of the time of a case to the median time. Slower cases are timed on fewer rays.
     pub slowest: f64,
     pub most_rays: usize,
     pub seed: u64,
@@ -45,17 +44,18 @@ pub struct SamplePlan {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Samples {
     pub rays: usize,
-    /// The level whose rays in epoch 0 the [`checksum`](Self::checksum) covers. `None` for the rays of the samples.
+    /// The [`checksum`](Self::checksum) covers the rays that epoch 0 selects at this level. `None` if the checksum
+    /// covers the timed rays.
     pub checksum_level: Option<usize>,
-    /// A checksum of results that is the same in all epochs.
+    /// This checksum covers rays that are equal in all epochs.
     pub checksum: u64,
-    /// The timed rays differ between epochs unless all rays are timed.
+    /// This checksum covers the timed rays.
     pub timed_checksum: u64,
-    /// Samples of two cases with the same index are a pair.
+    /// Entry `i` of every case was measured in round `i`.
     pub ns: Vec<u64>,
-    /// Times of the same samples on subsets of the rays.
+    /// Samples of subsets of the rays.
     pub parts: Vec<SubsetSamples>,
-    /// Whether the same rays had the same results every time.
+    /// `false` if repeated passes over the same rays had different results.
     pub is_steady: bool,
 }
 
@@ -67,8 +67,7 @@ pub struct SubsetSamples {
 }
 
 impl Samples {
-    /// Empty samples of a case with `all` rays that is timed at `level`. The rays of a subset differ between epochs. So
-    /// each epoch also traces about a sixteenth of the rays that epoch 0 times.
+    /// Empty samples of a case. `all` is the number of rays of the workload.
     pub fn none(all: usize, level: usize) -> Self {
         let checksum_level = (level > 0).then(|| (level + 2).min(last_level(all)));
         Self { rays: rays_at(all, level), checksum_level, is_steady: true, ..Self::default() }
@@ -77,12 +76,11 @@ impl Samples {
 
 /// Each round takes one sample of every case, in random order.
 ///
-/// Cases with the same number in `compared` follow one another, so a long disturbance affects all of these cases. A
-/// case whose results change is not run again. `progress` receives the number of samples so far, including skipped
-/// samples.
+/// Within a round, cases with equal numbers in `compared` are consecutive. A case whose results change is not run
+/// again. `progress` receives the number of samples so far, including skipped samples.
 ///
 /// # Panics
-/// If `samples` or `compared` differ in length from `cases`, or no level of a case has the number of rays in `samples`.
+/// If `samples` or `compared` differ in length from `cases`. If `samples` contains a number of rays that no level has.
 pub fn take(
     clock: &dyn Clock,
     cases: &mut [Box<dyn Timed + '_>],

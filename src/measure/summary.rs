@@ -34,7 +34,7 @@ impl Variance {
         (values.len() > 1).then(|| Self { square: squares / (n - 1.0) / n, freedom: n - 1.0 })
     }
 
-    /// The variance of `factor` times the quantity.
+    /// If `self` is the variance of `x`, the result is the variance of `factor * x`.
     pub fn times(self, factor: f64) -> Self {
         Self { square: self.square * factor * factor, ..self }
     }
@@ -42,8 +42,10 @@ impl Variance {
     /// The parts must be independent.
     ///
     /// # References
-    /// Satterthwaite: An approximate distribution of estimates of variance components. 1946. For two parts: Welch: The
-    /// generalization of Student's problem when several different population variances are involved. 1947.
+    /// Satterthwaite, "An approximate distribution of estimates of variance components", 1946.
+    ///
+    /// Welch, "The generalization of Student's problem when several different population variances are involved", 1947
+    /// (for two parts).
     pub fn sum(parts: &[Self]) -> Self {
         let square: f64 = parts.iter().map(|part| part.square).sum();
         let spread: f64 = parts.iter().map(|part| part.square * part.square / part.freedom).sum();

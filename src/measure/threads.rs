@@ -19,7 +19,7 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// Binds each thread to a separate core if the system allows the binding.
+    /// Binds each thread to a separate core if possible.
     ///
     /// # Errors
     /// If the system does not provide `count` threads.
@@ -29,9 +29,9 @@ impl Threads {
         Ok(Self { pool: Arc::new(OnceLock::from(pool)), ..threads })
     }
 
-    /// The threads start with the first work, because idle threads would disturb the timed thread.
+    /// The threads start at the first call of [`install`](Self::install).
     pub fn unstarted(count: usize) -> Self {
-        // The load must be read before these threads add to the load.
+        // The load average must be read before the threads start.
         machine::load_at_start();
         Self { pool: Arc::default(), count, cores: choose(count) }
     }
@@ -49,7 +49,7 @@ impl Threads {
         })
     }
 
-    /// Starts and ends the threads if they do not run yet.
+    /// Checks that the system can start the threads.
     ///
     /// # Errors
     /// If the system does not provide the threads.
@@ -61,8 +61,7 @@ impl Threads {
         self.cores.as_deref()
     }
 
-    /// A single thread traces on the caller, so the guard binds the caller. `None` for several threads, or if threads
-    /// are not bound.
+    /// Binds the calling thread if `count` is 1. `None` if the calling thread was not bound.
     pub fn pin(&self) -> Option<Pin> {
         if self.count == 1 { Pin::to(*self.cores.as_ref()?.first()?) } else { None }
     }
@@ -79,10 +78,10 @@ impl Threads {
     }
 }
 
-/// The number of the calling thread in system calls. The first thread of a process has the number of the process.
+/// The number 0 denotes the calling thread in system calls.
 const THIS_THREAD: u32 = 0;
 
-/// Dropping the guard restores the previous cores of the thread.
+/// Dropping the `Pin` restores the previous cores of the thread.
 #[derive(Debug)]
 pub struct Pin {
     before: Vec<usize>,
@@ -97,20 +96,20 @@ impl Pin {
 
 impl Drop for Pin {
     fn drop(&mut self) {
-        // If the system no longer allows the previous cores, the thread stays on its core.
+        // If the system no longer allows the previous cores, the thread keeps the present cores.
         bind(&self.before);
     }
 }
 
 static CORES: OnceLock<Vec<usize>> = OnceLock::new();
 
-/// Later groups of `cores.len()` threads use these cores instead of idle cores. Only the first call counts.
+/// Every later [`Threads`] with `cores.len()` threads uses `cores`. Only the first call has an effect.
 pub fn keep_to(cores: &[usize]) {
     CORES.get_or_init(|| cores.into());
 }
 
-/// High core numbers are preferred, because interrupts use low numbers. `None` if threads cannot be bound, or there are
-/// fewer cores than threads.
+/// Chooses the cores with the most idle time. Among equally idle cores, cores with high numbers are preferred, because
+/// interrupts use cores with low numbers. `None` if the threads cannot get separate cores.
 fn choose(threads: usize) -> Option<Vec<usize>> {
     let mut cores = allowed(THIS_THREAD)?;
     if let Some(chosen) = CORES.get().filter(|chosen| chosen.len() == threads) {
@@ -127,9 +126,10 @@ fn choose(threads: usize) -> Option<Vec<usize>> {
     Some(cores)
 }
 
-/// A program inherits the cores of the thread that starts the program. So `work` may use all cores of the first thread
-/// of this process.
+/// During `work`, the calling thread may use all cores of the main thread. Programs that `work` starts inherit these
+/// cores.
 pub fn on_all_cores<R>(work: impl FnOnce() -> R) -> R {
+    // The number of the main thread is the process id.
     let _pin = allowed(std::process::id()).zip(allowed(THIS_THREAD)).map(|(all, before)| {
         bind(&all);
         Pin { before }

@@ -1,28 +1,26 @@
-//! Selects a subset of the rays of a workload if there is no time for all rays.
+//! Selects subsets of the rays of a workload.
 //!
-//! A tile of consecutive rays is a block of pixels. Scattered single rays miss the caches more often than a picture, so
-//! a subset consists of whole tiles. Each epoch draws other tiles, so the differences between tiles are part of every
-//! interval.
+//! A tile is a range of consecutive rays. A subset consists of tiles, because scattered single rays would miss the
+//! caches more often. Different epochs select different subsets.
 //!
-//! Each level has about a quarter of the rays of the previous level. Levels are nested, so the pass of a fast structure
-//! also times the rays of a slower structure.
+//! Level 0 contains all rays. Each further level contains about a quarter of the rays of the previous level.
 
 use std::ops::Range;
 
 use super::RandomOrder;
 
-/// Rays of a tile at the first levels: a block of 32 by 32 pixels.
+/// The number of rays of a full tile, such as a block of 32 by 32 pixels.
 pub const TILE: usize = 1024;
 
-/// A level has fewer tiles than the previous level if at least this many remain. Otherwise the tiles become smaller.
+/// Tiles are removed only if at least this many tiles remain. Otherwise the tiles become smaller.
 const FEWEST: usize = 64;
 
-/// The ranges are in order, and no range is empty.
+/// The ranges are sorted. No range is empty.
 pub fn tiles(rays: usize, level: usize, epoch: usize) -> Vec<Range<usize>> {
     if level == 0 {
         return (0..rays).step_by(TILE).map(|first| first..(first + TILE).min(rays)).collect();
     }
-    // With whole tiles, a level has the same number of rays in every epoch.
+    // With only full tiles, the number of rays of a level does not depend on the epoch.
     let mut tiles: Vec<Range<usize>> = match rays / TILE {
         0 => std::iter::once(0..rays).collect(),
         whole => (0..whole).map(|i| i * TILE..(i + 1) * TILE).collect(),
@@ -101,7 +99,7 @@ mod tests {
         assert_ne!(tiles(262_144, 1, 0), tiles(262_144, 1, 1));
         let mut drawn = vec![0; 256];
         (0..400).flat_map(|epoch| tiles(262_144, 1, epoch)).for_each(|tile| drawn[tile.start / TILE] += 1);
-        // On average, 100 of the 400 epochs draw a tile. Five standard deviations are 43.
+        // Each tile is drawn in 100 of the 400 epochs on average. Five standard deviations are 43.
         assert!(drawn.iter().all(|n| (57..=143).contains(n)), "{drawn:?}");
     }
 

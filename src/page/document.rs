@@ -18,7 +18,7 @@ pub struct Answer {
     pub banner: String,
     /// A few words, such as `Yes`.
     pub verdict: String,
-    /// The most important sentence is the first.
+    /// The first sentence is the most important sentence.
     pub sentences: Vec<String>,
     pub numbers: Vec<Headline>,
     #[serde(skip)]

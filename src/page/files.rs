@@ -7,7 +7,7 @@ use crate::report::markdown::{blocks, escaped, prose};
 use crate::report::plot::WIDTH;
 use crate::report::{Art, Figure, csv};
 
-/// The paths in the folder of a report, and the contents of the files.
+/// Returns the path and the content of each file. The paths are relative to the folder of the report.
 pub fn files(document: &Document, runs: &Runs) -> Vec<(String, Vec<u8>)> {
     let mut files = vec![
         ("index.html".to_owned(), page(document).into_bytes()),

@@ -1,7 +1,4 @@
 //! `sahara report`: measurements of runs as an HTML page, Markdown and CSV files.
-//!
-//! Each study makes a [`Report`](crate::report::Report) from its measurements. A [`Document`] combines the reports and
-//! lists missing measurements with commands.
 
 mod document;
 mod files;

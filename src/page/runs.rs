@@ -39,21 +39,21 @@ pub enum RunError {
 pub struct Runs<'a> {
     /// The measured studies, in the order of [`Studies`].
     pub studies: Vec<StudyRun<'a>>,
-    /// One sentence for each missing or omitted measurement, and for each ignored file.
+    /// Notes in the report, such as a note about an ignored file.
     pub notes: Vec<String>,
 }
 
 pub struct StudyRun<'a> {
     pub study: &'a Study,
-    /// The dataset with the most cases. The page shows only this dataset.
+    /// The dataset with the most cases. `report` is made from this dataset.
     pub dataset: Dataset,
     pub others: Vec<Dataset>,
     pub report: Report,
 }
 
 impl<'a> Runs<'a> {
-    /// In a folder, reads all `.json` files and the journals. If a case was measured several times, the newest
-    /// measurement counts.
+    /// From each folder, reads the `.json` files and the journals. If a case was measured several times, the newest
+    /// measurement is used.
     pub fn read(paths: &[PathBuf], studies: &'a Studies) -> Result<Self, RunError> {
         let mut runs = Self::default();
         let mut cases = vec![];
@@ -155,14 +155,14 @@ fn read(path: &Path, studies: &Studies, notes: &mut Vec<String>) -> Result<Vec<C
     Ok(cases.collect())
 }
 
-/// The files of the folder `path` and of the journals in the folder.
+/// Returns the files in the folder `path` and in its journals.
 fn folder(path: &Path, studies: &Studies) -> Result<Vec<PathBuf>, RunError> {
     let journals = studies.iter().map(|study| path.join(study.name)).filter(|journal| journal.is_dir());
     let files = std::iter::once(path.to_path_buf()).chain(journals).map(|folder| journal::files(&folder));
     Ok(files.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
-/// Removes duplicates: an export may repeat the cases of a journal.
+/// Removes repeated cases. An export may contain the same cases as a journal.
 fn each_measured_once(cases: Vec<CaseFile>) -> Vec<CaseFile> {
     each_once_by(cases, |one, other| {
         one.epoch == other.epoch && one.case == other.case && one.provenance.machine() == other.provenance.machine()

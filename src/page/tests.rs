@@ -1,4 +1,4 @@
-//! Checks that a page agrees with its runs and has the right format.
+//! Tests of the pages and files that `sahara report` writes.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -37,7 +37,7 @@ fn what_users_name_is_text_in_every_form() {
     assert!(!String::from_utf8(markdown.clone()).unwrap().replace("\\<", "").contains("<script>"));
     assert!(files.iter().all(|(path, _)| !path.contains("..") && !path.contains(['<', '"', '&'])), "{files:?}");
 
-    // The data of an inspector must not end its script element.
+    // The text `</script>` in inspector data must not end the script element.
     let json = page.split("<script type=\"application/json\">").nth(1).unwrap().split("</script>").next().unwrap();
     let data: serde_json::Value = serde_json::from_str(json).unwrap();
     assert_eq!(data["command"], format!("sahara validate {EVIL} --ray"));
@@ -91,7 +91,6 @@ fn numbers_stand_to_the_right_and_sort_by_their_value() {
 fn the_answer_goes_by_what_is_measured() {
     const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
     const SAH: &str = "Would a SAH tree have been much faster on the hard scenes?";
-    // Studies and scenes; title; verdict; count of numbers; parts of the sentences; count of parts in a bar.
     type Case<'a> = (&'a [(&'a str, &'a [&'a str])], &'a str, &'a str, usize, &'a [&'a str], usize);
     let tally = "0 of 24 confirmed, 1 refuted, 0 undecided, 23 not measured";
     let own = "Of all structures sah-kd is the fastest.";
@@ -175,7 +174,6 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     let again: Files = journal("compare", &["Cube"], &new);
     let again = again.into_iter().map(|(name, text)| (name, String::from_utf8(text).unwrap().replace("8000", "8001")));
     let again: Files = again.map(|(name, text)| (name, text.into_bytes())).collect();
-    // Files added to a journal of three scenes; shown scenes; hidden scenes; part of the only note.
     type Case<'a> = (Files, &'a [&'a str], &'a [&'a str], &'a str);
     let cases: [Case; 6] = [
         (export("compare", &three, &old), &three, &[], ""),

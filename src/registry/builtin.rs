@@ -12,7 +12,7 @@ use crate::validate::HasReference;
 
 impl Registry {
     pub fn builtin() -> Self {
-        // `Exact` comes first: the first triangle test under a name is the default.
+        // The first triangle test of a structure name is the default test. Our structures use `Exact` by default.
         let ours = Self::empty()
             .over::<Exact>()
             .over::<MollerTrumbore>()
@@ -34,7 +34,6 @@ impl Registry {
         all
     }
 
-    /// Brute force over `T` is the reference for all structures over `T`.
     fn brute_force<T: HasReference>(self) -> Self
     where
         BruteForce<T>: Offered<Config = BruteForceConfig>,

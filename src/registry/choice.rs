@@ -37,7 +37,7 @@ pub enum ChoiceError {
     Config { name: String, reason: String },
 }
 
-/// Values that a key no longer accepts: key, value and replacement.
+/// Each element has a key, a value that the key no longer accepts, and the replacement.
 const REMOVED: [(&str, &str, &str); 1] =
     [("batch", "interleaved", "batch=packets, which interleaves the rays outside packets")];
 
@@ -57,7 +57,7 @@ pub fn is_named(label: &str, name: &str) -> bool {
 
 impl Choice {
     /// `overrides` are pairs of key and value. `name_test` adds the triangle test to the label. Callers set `name_test`
-    /// if the name without a test selects another entry.
+    /// if `entry` is not the first entry with its name.
     pub(super) fn of(entry: &Entry, overrides: &[(&str, &str)], name_test: bool) -> Result<Self, ChoiceError> {
         let mut config = entry.config.clone();
         let keys = config.as_object_mut().expect("checked when it was registered");
@@ -89,7 +89,7 @@ impl Choice {
         let choice = Self { entry: entry.clone(), config, label };
         match choice.build(&Arc::new(empty())) {
             Err(BuildError::Config(reason)) => Err(ChoiceError::Config { name: entry.name.clone(), reason }),
-            // The build over the empty mesh only checks the configuration. Other errors are ignored.
+            // The empty mesh is built only to check the configuration. Only `BuildError::Config` is reported.
             _ => Ok(choice),
         }
     }

@@ -5,10 +5,10 @@ use serde_json::Value;
 use crate::accel::{BuildError, Capabilities, DynAccel, Observed};
 use crate::geometry::Mesh;
 
-/// One structure over one triangle test, with its default configuration.
+/// An acceleration structure with one ray-triangle intersection test.
 #[derive(Clone)]
 pub struct Entry {
-    /// The name on the command line. Entries that differ only in the triangle test have the same name.
+    /// The name of the structure on the command line. Entries that differ only in the triangle test have the same name.
     pub name: String,
     pub triangle_test: &'static str,
     pub observed: Observed,
@@ -17,7 +17,7 @@ pub struct Entry {
     pub capabilities: Capabilities,
     /// Whether this crate registers the structure.
     pub is_builtin: bool,
-    /// The default configuration: a JSON object with one value per key.
+    /// The default configuration, as a JSON object.
     pub config: Value,
     /// Checks that a configuration can be parsed. Contradictions between values are not detected.
     pub(super) read: fn(&Value) -> Result<(), String>,

@@ -1,4 +1,4 @@
-//! The keys of structures: their meanings, accepted values and defaults.
+//! The configuration keys of structures.
 
 use serde_json::Value;
 
@@ -68,7 +68,7 @@ const MEANINGS: [(&str, &str); 24] = [
 
 impl Entry {
     pub fn keys(&self) -> Vec<Key> {
-        // In a structure of another crate, a key of `MEANINGS` may have another meaning.
+        // Another crate may give a key of `MEANINGS` a different meaning.
         let meanings = if self.is_builtin { &MEANINGS[..] } else { &[] };
         let known = |name: &str| meanings.iter().find(|(key, _)| *key == name).map_or("", |(_, meaning)| meaning);
         let key = |(name, value): (&String, &Value)| Key {
@@ -80,7 +80,6 @@ impl Entry {
         self.config.as_object().into_iter().flatten().map(key).collect()
     }
 
-    /// For words, the parser lists the accepted values in its error for the unknown word `?`.
     pub(super) fn values(&self, key: &str) -> String {
         match &self.config[key] {
             Value::Bool(_) => "true, false".into(),
@@ -88,6 +87,7 @@ impl Entry {
             Value::Number(_) if self.takes(key, &Value::from(-1)).is_err() => "integer of at least 0".into(),
             Value::Number(_) => "integer".into(),
             _ => {
+                // The error for the unknown word `?` lists the accepted words in backticks.
                 let refused = self.takes(key, &Value::from("?")).err().unwrap_or_default();
                 let words: Vec<&str> = refused.rsplit("expected").next().unwrap_or("").split('`').collect();
                 words.chunks(2).filter_map(|pair| pair.get(1).copied()).collect::<Vec<_>>().join(", ")
@@ -96,7 +96,7 @@ impl Entry {
     }
 }
 
-/// JSON stores an `f32` as an `f64`. The text has the shorter digits of the `f32`.
+/// `serde_json` stores an `f32` as an `f64`. Formatting as `f32` avoids extra digits.
 fn shown(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),

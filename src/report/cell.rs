@@ -1,4 +1,4 @@
-//! One cell of a table: a value and its emphasis.
+//! The cells of tables.
 
 use super::number::{bytes, count, duration, figures};
 use super::words::written;
@@ -14,7 +14,7 @@ pub enum Value {
     Difference(i64),
     Number(f64, Format),
     Estimate(Estimate, Format),
-    /// Rays with a wrong hit, out of the checked rays.
+    /// `wrong` is the number of rays with a wrong hit. `of` is the number of checked rays.
     Errors {
         wrong: u64,
         of: u64,
@@ -23,14 +23,14 @@ pub enum Value {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Three significant digits.
+    /// The format of [`figures`].
     Figures,
     Decimals(u8),
     /// A fraction, written in percent: `50.0 %`.
     Percent,
     /// A relative change, written in percent: `+1.5%`.
     Change,
-    /// Nanoseconds, written as `ns`, `us`, `ms` or `s`.
+    /// A duration in nanoseconds, written in `ns`, `us`, `ms` or `s`.
     Duration,
     Bytes,
 }

@@ -1,11 +1,10 @@
-//! Tables as CSV: one number per field, without units.
+//! Writes tables as CSV, without units.
 
 use super::{Cell, Table, Value};
 
-/// Suffixes of the fields of a column: value, low end, high end, number of checked rays.
+/// Name suffixes for the value, both interval ends and the number of checked rays.
 const ENDINGS: [&str; 4] = ["", "_low", "_high", "_of"];
 
-/// A column has fields for an interval or errors only if a cell needs them.
 pub fn table(table: &Table) -> Vec<u8> {
     let fields_of = |i: usize| {
         let has = |is: fn(&Value) -> bool| table.rows.iter().any(|row| is(&row[i].value));

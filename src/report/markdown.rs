@@ -1,4 +1,4 @@
-//! Tables and reports as GitHub's Markdown.
+//! Writes tables and reports as GitHub Flavored Markdown.
 
 use super::words::ended;
 use super::{Art, Block, Figure, Report, Table, Tone, wrapped};
@@ -68,7 +68,7 @@ pub fn escaped(text: &str) -> String {
     text.chars().flat_map(marked).collect()
 }
 
-/// Keeps code spans and `**`, and escapes all other markup.
+/// Escapes text, except code spans and `**`. If a backtick is unpaired, the whole text is escaped.
 pub fn prose(text: &str) -> String {
     let pieces = text.split('`').collect::<Vec<_>>();
     if pieces.len().is_multiple_of(2) {

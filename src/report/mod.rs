@@ -1,5 +1,4 @@
-//! The result of a study as data, and its renderers for terminal, Markdown and CSV. `crate::page` renders the result
-//! as HTML.
+//! Reports of studies as data, with renderers for terminal, Markdown and CSV.
 
 mod cell;
 pub mod csv;

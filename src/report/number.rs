@@ -1,9 +1,9 @@
-//! Numbers for people: three significant digits and a unit.
+//! Formats numbers, durations and byte counts.
 
 pub use crate::plural::{count, plural};
 
-/// Three significant digits, or all digits before the point if these are more: `0.00123`, `12.3`, `1234`. Scientific
-/// notation below 1e-3 and from 1e7.
+/// Formats `x` with three significant digits: `0.00123`, `12.3`. All digits before the decimal point are kept: `1234`.
+/// Nonzero magnitudes outside [1e-3, 1e7) are in scientific notation.
 pub fn figures(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
@@ -11,7 +11,7 @@ pub fn figures(x: f64) -> String {
     } else if !x.is_finite() || !(1e-3..1e7).contains(&size) {
         format!("{x:.2e}")
     } else {
-        // The number of decimals follows from the rounded value: 9.996 becomes 10.0.
+        // The number of decimals depends on the rounded value: 9.996 becomes 10.0, not 10.00.
         let rounded: f64 = format!("{size:.2e}").parse().expect("a formatted number");
         let decimals = 2 - libm::floor(libm::log10(rounded)) as i32;
         format!("{x:.*}", decimals.max(0) as usize)

@@ -1,4 +1,4 @@
-//! A study's report on a dataset, as plain data independent of the output format.
+//! A study's report, independent of the output format.
 
 use super::plot::Chart;
 use super::{Cell, Table, Tone};
@@ -7,26 +7,24 @@ use crate::names::named_enum;
 
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// Findings, most important first.
     pub findings: Vec<Finding>,
-    /// The terminal prints only the tables and notes that are not folded.
     pub blocks: Vec<Block>,
     /// Verdicts on claims that were written before the measurement.
     pub verdicts: Vec<ClaimVerdict>,
-    /// Structures without times or with wrong hits. They decide the exit status.
+    /// Missing measurements and wrong hits.
     pub failures: Vec<Failure>,
-    /// Conditions that disturbed the run, each with a remedy.
+    /// Conditions that disturbed the run.
     pub warnings: Vec<String>,
-    /// The table of `--export-csv`, with one row per measurement.
+    /// The table of `--export-csv`.
     pub data: Table,
 }
 
-/// A sentence about the data, and the number in this sentence. Claims and README refer to a finding by its key.
+/// A statement about the data: a sentence, a number or a name. Claims refer to a finding by the key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Letters, digits and hyphens; unique among the findings of a study.
+    /// Unique among the findings of a study.
     pub key: String,
-    /// Ends with a full stop. Empty if the finding is only a number or only a name.
+    /// A sentence with a full stop, or an empty text.
     pub sentence: String,
     pub value: Option<Estimate>,
     /// A name, such as the label of the fastest structure.
@@ -43,13 +41,13 @@ pub enum Block {
     Table(Table),
     Figure(Box<Figure>),
     Missing(Missing),
-    /// A heading, and blocks that the page hides until the reader unfolds them.
+    /// A heading, and the blocks that the page initially hides.
     Fold(String, Vec<Block>),
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClaimVerdict {
-    /// The number of the prediction that contains the claim, from 1.
+    /// The number of the prediction that contains the claim. The first prediction has the number 1.
     pub prediction: u8,
     pub claim: String,
     /// The expected range, such as `at least 20`.
@@ -66,7 +64,7 @@ named_enum! {
         Confirmed = "confirmed",
         /// The whole interval lies outside the expected range.
         Refuted = "refuted",
-        /// The interval contains a bound of the expected range, or there is no interval.
+        /// The interval is missing, or contains a bound of the expected range.
         Undecided = "undecided",
         NotMeasured = "not measured",
     }
@@ -75,9 +73,9 @@ named_enum! {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Failure {
     pub structure: String,
-    /// Printed below the tables; empty if a table already shows the failure.
+    /// Empty if a table already shows the failure.
     pub sentence: String,
-    /// Whether the structure has no times on any workload.
+    /// Whether the structure has no result.
     pub refused: bool,
     /// Whether the structure returned wrong hits.
     pub wrong: bool,
@@ -85,12 +83,12 @@ pub struct Failure {
 
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// Letters, digits and hyphens; unique among the figures. File names begin with the id.
+    /// The names of picture files begin with the id.
     pub id: String,
     pub caption: String,
     pub alt: String,
     pub art: Art,
-    /// The numbers in the figure; a table without columns if the figure has no numbers.
+    /// The numbers in the figure. The table has no columns if the figure has no numbers.
     pub data: Table,
 }
 
@@ -101,7 +99,7 @@ pub enum Art {
     Overlay(Overlay),
 }
 
-/// Pictures of equal size and scale. The page overlays any two.
+/// Pictures of equal size, to be compared on the page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlay {
     pub heading: String,
@@ -115,12 +113,12 @@ pub struct Overlay {
 pub enum Colours {
     Ramp {
         title: String,
-        /// Colours at equal distances, `#RRGGBB`.
+        /// Colours at equal distances on the ramp, as `#RRGGBB`.
         colours: Vec<String>,
-        /// The ticks: position on the scale, 0 to 1, and label.
+        /// Each tick has a position on the ramp, from 0 to 1, and a label.
         ticks: Vec<(f64, String)>,
     },
-    /// Colours, `#RRGGBB`, each with its meaning.
+    /// Pairs of a colour, as `#RRGGBB`, and the meaning of the colour.
     Key(Vec<(String, String)>),
 }
 
@@ -135,7 +133,7 @@ pub struct Picture {
     pub size: [u32; 2],
 }
 
-/// A result that no run has measured, and the command that measures it.
+/// A missing result, and the command that measures this result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Missing {
     pub what: String,

@@ -9,19 +9,18 @@ pub struct Table {
     pub columns: Vec<String>,
     /// Each row has one cell per column.
     pub rows: Vec<Vec<Cell>>,
-    /// One sentence each.
     pub notes: Vec<String>,
-    /// Columns that the terminal shows only with `--verbose`. Exports have all columns.
+    /// Headings of the columns that the terminal shows only with `--verbose`.
     pub details: Vec<String>,
-    /// Whether the table is about one scene. A run prints the table as soon as this scene is measured.
+    /// Whether the table is about one scene.
     pub of_scene: bool,
 }
 
-/// The heading of a column, and the function that makes its cells.
+/// The heading of a column, and the function that makes the cells of the column.
 pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> Cell);
 
 impl Table {
-    /// Adds a note about estimates without an interval, if the table has any.
+    /// Adds a note if an estimate in the table has no interval.
     #[must_use]
     pub fn with_interval_note(mut self) -> Self {
         let has_no_interval = |cell: &Cell| matches!(cell.value, Value::Estimate(x, _) if x.interval.is_none());
@@ -82,7 +81,7 @@ impl Table {
         self.with_columns(kept)
     }
 
-    /// The first column always stays.
+    /// Always keeps the first column.
     fn with_columns(self, mut kept: Vec<bool>) -> Self {
         kept.iter_mut().take(1).for_each(|first| *first = true);
         let columns = only(self.columns, &kept);

@@ -7,13 +7,15 @@ use crate::escaped::Escaped as _;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Screen {
-    /// Characters per line; `None` is unlimited.
+    /// Characters per line. `None` is unlimited.
     pub width: Option<u16>,
     pub colour: bool,
 }
 
-/// Spaces before the first column, and after every column.
+/// Spaces before the first column.
 const INDENT: usize = 2;
+
+/// Spaces after each column.
 const PADDING: usize = 2;
 
 pub fn summary_tables(report: &Report) -> Vec<Table> {
@@ -25,7 +27,7 @@ pub fn note(block: &Block) -> Option<String> {
     if let Block::Note(words) = block { Some(words.clone()) } else { None }
 }
 
-/// Columns that do not fit are printed below, next to a copy of the first column.
+/// Columns that do not fit on the screen are printed below the other columns. The first column is then repeated.
 pub fn table(table: &Table, screen: Screen) -> String {
     let table = table.clone().without_empty_columns();
     let title = table.title.escaped();
@@ -40,7 +42,6 @@ pub fn table(table: &Table, screen: Screen) -> String {
     text
 }
 
-/// Replaces the name of a structure if the row above shows the name.
 const ABOVE: char = '…';
 
 /// A label `sah-kd:leaf=4` below the label `sah-kd` becomes `…:leaf=4`.
@@ -59,12 +60,12 @@ pub fn with_short_names(mut table: Table) -> Table {
     table
 }
 
-/// The text is escaped, because file names may contain control characters.
+/// Escapes control characters in the text.
 fn printed(cell: &Cell) -> String {
     cell.text().escaped().to_string()
 }
 
-/// Splits the columns into groups that fit on the screen.
+/// Splits the columns into blocks that fit on the screen.
 fn blocks(table: &Table, width: Option<usize>) -> Vec<Vec<usize>> {
     let widest = |i: usize| {
         let cells = table.rows.iter().map(|row| printed(&row[i]).chars().count());

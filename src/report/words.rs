@@ -3,12 +3,12 @@
 use super::number::figures;
 use crate::measure::{Estimate, Interval};
 
-/// A stand-in is a generated mesh that replaces a real one.
+/// A stand-in is a generated mesh that replaces a real mesh.
 pub fn scene_name(scene: &str, stand_in: bool) -> String {
     if stand_in { format!("{scene} (stand-in)") } else { scene.into() }
 }
 
-/// `20.6 [19.2, 21.4]`, `20.6` if the estimate is exact, or `20.6 (one epoch)` without an interval.
+/// Examples: `20.6 [19.2, 21.4]`, `20.6` and `20.6 (one epoch)`.
 pub fn interval(x: Estimate) -> String {
     written(x, figures)
 }
@@ -20,7 +20,7 @@ pub fn written(x: Estimate, number: impl Fn(f64) -> String) -> String {
     }
 }
 
-/// `[19.2, 21.4]`, or `(one epoch)` without an interval.
+/// Examples: `[19.2, 21.4]` and `(one epoch)`.
 pub fn interval_text(x: Estimate, number: impl Fn(f64) -> String) -> String {
     match x.interval {
         Some(Interval { low, high, .. }) => format!("[{}, {}]", number(low), number(high)),
@@ -28,14 +28,14 @@ pub fn interval_text(x: Estimate, number: impl Fn(f64) -> String) -> String {
     }
 }
 
-/// Adds a full stop if the text has no punctuation at its end.
+/// Adds a full stop if the text does not end with `.`, `?` or `!`.
 pub fn ended(words: &str) -> String {
     if words.ends_with(['.', '?', '!']) { words.into() } else { format!("{words}.") }
 }
 
 pub const ONE_EPOCH: &str = "(one epoch)";
 
-/// `width` is in characters. Longer words are not split.
+/// `width` is in characters. Words longer than `width` are not split.
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = vec![];
     for word in text.split_whitespace() {
@@ -60,14 +60,14 @@ pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
     }
 }
 
-/// Lower-case letters, digits and hyphens. Different texts may give the same slug.
+/// A slug contains only lower-case letters, digits and hyphens. Different texts may give the same slug.
 pub fn slug(text: &str) -> String {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let slug = words.collect::<Vec<_>>().join("-").to_ascii_lowercase();
     if slug.is_empty() { "x".into() } else { slug }
 }
 
-/// The label of a structure without its keys.
+/// Returns `NAME` for the label `NAME:key=value,..`.
 pub fn bare(label: &str) -> &str {
     label.split(':').next().unwrap_or(label)
 }
@@ -76,7 +76,7 @@ pub fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     each_once(names).into_iter().cloned().collect()
 }
 
-/// The distinct `items`, in the order of their first appearance.
+/// Removes repeated items and keeps the order.
 pub fn each_once<T: PartialEq>(items: impl IntoIterator<Item = T>) -> Vec<T> {
     each_once_by(items, T::eq)
 }
@@ -91,7 +91,7 @@ pub fn each_once_by<T>(items: impl IntoIterator<Item = T>, same: impl Fn(&T, &T)
     found
 }
 
-/// Removes the folder of the program, which differs between machines.
+/// Removes the folder from the program's path.
 pub fn command_line(command: &str) -> String {
     let (program, rest) = command.split_once(' ').unwrap_or((command, ""));
     let program = program.trim_matches('\'').rsplit(['/', '\\']).next().unwrap_or(program);

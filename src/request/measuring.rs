@@ -1,4 +1,4 @@
-//! The timing options, and durations as values of options.
+//! The timing options.
 
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
@@ -6,8 +6,9 @@ use std::time::Duration;
 
 use super::MEASURING;
 
-/// The timing options. The const parameters are the defaults of a study. Clap receives them as text, because it stores
-/// the value of `default_value_t` only once for all instances of a generic type.
+/// The timing options. The const parameters are the default values of `--epochs`, `--runs` and `--budget`.
+///
+/// These options use `default_value`. Clap would store a `default_value_t` only once for all instances of this type.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = MEASURING)]
 pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {
@@ -30,7 +31,7 @@ pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u
     pub seed: u64,
 }
 
-/// A time limit; `None` is unlimited.
+/// A time limit. `None` is unlimited.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit(pub Option<Seconds>);
 
@@ -44,7 +45,7 @@ impl Limit {
     }
 }
 
-/// A time of at least a millisecond and at most a day.
+/// A duration. The parser accepts durations from a millisecond to a day.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Seconds(Duration);
 

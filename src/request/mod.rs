@@ -1,5 +1,4 @@
-//! The inputs that commands share: scenes, structures, rays and views. Each input exists as command-line options, and
-//! as JSON for another process.
+//! Inputs of several commands: scenes, structures, rays and views.
 
 mod measuring;
 mod os_text;
@@ -22,7 +21,7 @@ pub use structures::{
 };
 pub use view::ViewArgs;
 
-// The headings of the option groups in the help of commands.
+// Headings of option groups in the help text.
 pub const SCENES: &str = "Scenes";
 pub const STRUCTURES: &str = "Structures";
 pub const RAYS: &str = "Rays";

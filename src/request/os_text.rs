@@ -1,4 +1,4 @@
-//! File names in JSON: text, or an array of bytes if a name is not UTF-8.
+//! File names in JSON. A file name that is not UTF-8 is an array of bytes.
 
 use std::ffi::{OsStr, OsString};
 
@@ -31,7 +31,7 @@ fn of_bytes(bytes: Vec<u8>) -> Option<OsString> {
     Some(std::os::unix::ffi::OsStringExt::from_vec(bytes))
 }
 
-/// On other systems only UTF-8 is accepted.
+/// Accepts only UTF-8.
 #[cfg(not(unix))]
 fn of_bytes(bytes: Vec<u8>) -> Option<OsString> {
     String::from_utf8(bytes).ok().map(OsString::from)

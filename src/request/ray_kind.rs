@@ -38,8 +38,7 @@ impl RayKind {
             Self::Axis => (Stratum::AxisParallel, "axis-parallel rays through vertex coordinates"),
             Self::Grazing => (Stratum::Grazing, "rays almost in the plane of a triangle"),
             Self::Scale => (Stratum::Lengths, "rays with directions 1e-30 to 1e30 long"),
-            // For origins farther away, neighbouring `f32` values are as far apart as the mesh is large. A traversal
-            // that loses no hit then visits nearly all nodes.
+            // Far beyond 1e6 scene sizes, the spacing of `f32` values exceeds the scene size.
             Self::Offset => (Stratum::FarOrigins, "rays from 1e3 to 1e6 scene sizes away"),
             Self::Surface => (Stratum::FromSurface, "rays from points on triangles"),
         }
@@ -59,14 +58,14 @@ impl RayKind {
     }
 }
 
-/// The first `count` rays of [`Stratum::FarOrigins`] that start less than 2e6 box sizes away.
+/// Rays of [`Stratum::FarOrigins`] whose origins are less than 2e6 mesh sizes from the centre of the mesh.
 fn near_enough(mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
     let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element() * 2e6);
     let mut tried = 2 * count + 64;
     loop {
         let mut rays = Stratum::FarOrigins.rays(mesh, tried, seed);
         rays.retain(|ray| (ray.origin - centre).abs().max_element() < reach);
-        // If the box has size 0, no ray is near enough. In this case, rays from any distance are returned.
+        // For a mesh of size 0, no ray is near enough. Missing rays are replaced by rays from any distance.
         if rays.len() >= count || tried > 64 * count + 64 {
             rays.extend(Stratum::FarOrigins.rays(mesh, count.saturating_sub(rays.len()), seed));
             rays.truncate(count);

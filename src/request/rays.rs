@@ -1,4 +1,4 @@
-//! The rays of a case: generated, or read from a file.
+//! Rays that are generated or read from a file.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -19,10 +19,10 @@ use crate::scene::{Sampling, Scene, Workload, WorkloadKind};
 pub const WORKLOADS: [WorkloadKind; 4] =
     [WorkloadKind::Primary, WorkloadKind::Shadow, WorkloadKind::Diffuse, WorkloadKind::Random];
 
-/// Width and height of the pictures of the source report.
+/// Width and height in pixels.
 const PICTURE: [u32; 2] = [512, 512];
 
-/// `rays` is the maximum number of timed rays per workload; `None` is unlimited.
+/// The field `rays` is the maximum number of timed rays per workload. `None` is unlimited.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "from", rename_all = "kebab-case")]
 pub enum WorkloadRequest {
@@ -31,9 +31,9 @@ pub enum WorkloadRequest {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         rays: Option<usize>,
     },
-    /// All rays of the source report's picture.
+    /// All rays of a picture of 512 × 512 pixels.
     Picture,
-    /// Only the primary rays of `Picture`.
+    /// The primary rays of a picture of 512 × 512 pixels.
     PrimaryPicture,
     File {
         #[serde(with = "super::os_text")]
@@ -43,7 +43,7 @@ pub enum WorkloadRequest {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         rays: Option<usize>,
     },
-    /// Workloads of `study accuracy`, with `count` rays each.
+    /// Workloads of `study accuracy`. Each workload has `count` rays.
     Hard { kinds: Vec<RayKind>, count: usize },
 }
 
@@ -53,7 +53,7 @@ impl WorkloadRequest {
         Self::Scene { kinds, rays: Some(rays).filter(|&rays| rays < usize::MAX) }
     }
 
-    /// Secondary rays start at the hits of `tracer`. Workloads without rays in the scene are omitted.
+    /// Secondary rays start at the hits of `tracer`.
     pub fn workloads(
         &self,
         scene: &Scene,
@@ -107,7 +107,7 @@ impl WorkloadRequest {
     }
 }
 
-/// Removes repeated workloads, which would count twice in means.
+/// Removes repeated workloads.
 pub fn each_kind<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
     each_once(if named.is_empty() { own } else { named }.iter().copied())
 }
@@ -130,7 +130,7 @@ impl Rays {
     }
 }
 
-/// A value of `--rays`: a number of rays, `all`, or a ray file. A file with the name `all` is written `./all`.
+/// A value of `--rays`: a number of rays, `all`, or a ray file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RaySource {
     /// The maximum number of rays. `usize::MAX` represents all rays.
@@ -159,7 +159,7 @@ impl ValueParserFactory for RaySource {
 impl RaySource {
     pub fn of(named: &OsStr) -> Result<Self, String> {
         let Some(text) = named.to_str() else { return Ok(Self::File(named.into())) };
-        // A number outside the range is an error, not a file name.
+        // A number that `rays_or_all` rejects is an error, not a file name.
         let is_number = text.trim_start_matches(['-', '+']).bytes().all(|byte| byte.is_ascii_digit());
         match rays_or_all(text) {
             Ok(count) => Ok(Self::Count(count)),
@@ -176,7 +176,7 @@ impl RaySource {
         if let Self::Count(count) = self { *count } else { usize::MAX }
     }
 
-    /// The number of rays to generate; 0 for a file.
+    /// The number of rays to generate. The number is 0 for a file.
     pub fn number(&self) -> anyhow::Result<usize> {
         match self {
             Self::Count(usize::MAX) => {
@@ -188,8 +188,9 @@ impl RaySource {
     }
 }
 
-/// Reads a ray file and loads its scene. A scene in `named` takes precedence over the scene that the file names. `None`
-/// if `source` is a number.
+/// Reads a ray file and loads the scene of the rays. If `named` is empty, the ray file contains the scene name.
+///
+/// Returns `None` if `source` is not a file.
 pub fn recorded(
     registry: &Registry,
     source: &RaySource,
@@ -201,7 +202,7 @@ pub fn recorded(
         [] if file.scene.is_empty() => {
             anyhow::bail!("{} names no scene: name one on the command line", path.escaped())
         }
-        // Accept only built-in scenes: a ray file must not open other files.
+        // The scene name in a ray file must not be used as a path.
         [] if Builtin::find(&file.scene).is_err() => anyhow::bail!(
             "{} has rays of {:?}, which is not a built-in scene: name the mesh or scene file that they were recorded for",
             path.escaped(),
@@ -216,7 +217,7 @@ pub fn recorded(
     Ok(Some(((name.into(), scene), file)))
 }
 
-/// Like [`recorded`], for a study that times at most `rays` rays.
+/// Like [`recorded`], but returns a [`WorkloadRequest`] instead of a [`RayFile`].
 pub fn replayed<K>(
     registry: &Registry,
     source: &RaySource,

@@ -1,4 +1,4 @@
-//! Runners (external programs that implement a structure) on the command line and in cases.
+//! Runners are external programs that implement a structure.
 
 use std::time::Duration;
 
@@ -8,15 +8,14 @@ use super::Seconds;
 use crate::registry::{Choice, Registry, is_named, plain_name};
 use crate::runner::Program;
 
-/// Default timeout of a reply of a runner.
+/// Default timeout for a runner's reply.
 pub const RUNNER_LIMIT: Seconds = Seconds::whole(120);
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunnerRequest {
     pub command: String,
-    /// Timeout of a reply in seconds.
+    /// Timeout for a reply, in seconds.
     pub limit_s: f64,
-    /// Includes a digest of the program: a changed program counts as another structure.
     pub config: serde_json::Value,
 }
 

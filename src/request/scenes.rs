@@ -1,4 +1,4 @@
-//! Scenes on the command line and in cases: built-in, generated, or from files.
+//! Built-in scenes, generated scenes, and scenes from files.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -16,20 +16,20 @@ use crate::scene::{Scene, load};
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SceneRequest {
-    /// A built-in name, `NAME:stand-in`, a generated scene such as `icosphere:7`, or a file.
+    /// A built-in scene, `NAME:stand-in`, a generated scene such as `icosphere:7`, or a file.
     #[serde(with = "super::os_text")]
     pub word: OsString,
     #[serde(default, skip_serializing_if = "ViewArgs::is_default")]
     pub view: ViewArgs,
     pub name: String,
-    /// The first 16 digits of [`Scene::hash`]. The loaded scene must have this hash.
+    /// The first 16 digits of [`Scene::hash`]. The hash of the loaded scene must begin with these digits.
     pub hash: String,
-    /// Whether a generated mesh replaces a real one.
+    /// Whether a generated mesh replaces a real mesh.
     pub stand_in: bool,
     pub triangles: usize,
 }
 
-/// Suffix after `NAME:` that selects the stand-in mesh of a built-in scene instead of the real one.
+/// Suffix after `NAME:` that selects the stand-in mesh of a built-in scene.
 const STAND_IN: &str = "stand-in";
 
 pub fn stand_in(name: impl AsRef<OsStr>) -> OsString {
@@ -70,7 +70,7 @@ pub fn words(named: &[OsString]) -> Vec<OsString> {
 }
 
 fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsString, Scene)>> {
-    // Large meshes take seconds, so scenes are loaded in parallel. The loop below reports the first error in order.
+    // Scenes are loaded in parallel, because a large mesh takes seconds to load.
     let scenes: Vec<_> = words.par_iter().map(|word| scene(registry, word)).collect();
     let mut each: Vec<(OsString, Scene)> = vec![];
     for (word, scene) in words.iter().zip(scenes) {
@@ -87,7 +87,7 @@ fn loaded(registry: &Registry, words: &[OsString]) -> anyhow::Result<Vec<(OsStri
     Ok(each)
 }
 
-/// Loads a built-in scene, a generated scene, a scene file, or a scene around a mesh file.
+/// Loads a built-in scene, a generated scene, a scene file, or a mesh file.
 pub fn scene(registry: &Registry, word: impl AsRef<OsStr>) -> anyhow::Result<Scene> {
     let (path, real_meshes) = (Path::new(word.as_ref()), real_mesh_folder());
     let is_scene_file = || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
@@ -144,7 +144,7 @@ pub struct Scenes {
 }
 
 impl Scenes {
-    /// Without scenes on the command line, loads `own`, or all built-in scenes if `own` is empty.
+    /// Loads `own` if the command line names no scene. An empty `own` selects all built-in scenes.
     pub fn read(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<(OsString, Scene)>> {
         let own: Vec<OsString> = own.iter().map(|&name| name.into()).collect();
         loaded(registry, &words(if self.scenes.is_empty() { &own } else { &self.scenes }))

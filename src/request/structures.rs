@@ -1,4 +1,4 @@
-//! Structures on the command line and in cases.
+//! Selection of structures.
 
 use anyhow::Context;
 use serde::{Deserialize, Serialize};
@@ -11,30 +11,29 @@ use crate::scene::Scene;
 
 pub const BRUTE_FORCE: &str = "brute-force";
 
-/// The name of the source report's tree.
 pub const REPORT_TREE: &str = "median-kd";
 
 pub const SAH_TREE: &str = "sah-kd";
 
-/// The word that selects one structure of every name.
+/// The word that selects all structures.
 pub const ALL: &str = "all";
 
-/// The role of the second build of a structure, for the A/A check.
+/// The role of the second build of a structure.
 pub const TWIN: &str = "twin";
 
 pub const QUALITIES: [&str; 3] = ["fast", "balanced", "high"];
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StructureRequest {
-    /// `NAME` or `NAME:key=value,..`; for a runner, its label.
+    /// A label such as `NAME` or `NAME:key=value,..`.
     pub spec: String,
-    /// The role of the structure in a study: [`TWIN`], or a cell of a factorial design; may be empty.
+    /// The role in the study, for example [`TWIN`], or empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub role: String,
     /// `None` for a structure of the registry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub runner: Option<RunnerRequest>,
-    /// The reason, as a clause, why the structure is not built.
+    /// A clause with the reason why the structure is not built.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub skipped: Option<String>,
 }
@@ -68,12 +67,12 @@ impl From<&Choice> for StructureRequest {
     }
 }
 
-/// Whether the structure is not built in: another crate registered it, or it is a runner.
+/// Whether the structure is missing from the built-in registry.
 pub fn is_external(name: &str, triangle_test: &str) -> bool {
     Registry::builtin().find(name, triangle_test).is_none()
 }
 
-/// Replaces [`ALL`] by all names. If `named` is empty, returns all names.
+/// Replaces [`ALL`] by all names in the registry. If `named` is empty, returns all names in the registry.
 pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     let all = [ALL.to_owned()];
     let specs = if named.is_empty() { &all } else { named }.iter();
@@ -81,12 +80,12 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     each.map(String::from).collect()
 }
 
-/// If `named` is empty, returns every structure with its default triangle test.
+/// If `named` is empty, returns all structures.
 pub fn structures(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<Choice>> {
     structures_at(registry, named, None)
 }
 
-/// A structure with a key `quality` gets this quality, unless `named` sets the key.
+/// Sets the key `quality` of the structures that have this key. A quality in `named` takes precedence.
 pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str>) -> anyhow::Result<Vec<Choice>> {
     let at = |spec: String| {
         let Some(quality) = quality else { return spec };
@@ -98,7 +97,7 @@ pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str
     Ok(each_once_by(choices.collect::<Result<Vec<_>, _>>()?, |one, other| one.label == other.label))
 }
 
-/// Checks that all `tests` are names of triangle tests.
+/// Rejects unknown names of triangle tests.
 pub fn known_tests(registry: &Registry, tests: &[String]) -> anyhow::Result<()> {
     let mut known: Vec<&str> = registry.entries().iter().map(|entry| entry.triangle_test).collect();
     known.sort_unstable();
@@ -136,26 +135,26 @@ pub struct Structures {
 }
 
 impl Structures {
-    /// Without structures on the command line, returns `own`, or all structures if `own` is empty.
+    /// Returns `own` if the command line names no structure. An empty `own` selects all structures.
     pub fn chosen(&self, registry: &Registry, own: &[&str]) -> anyhow::Result<Vec<StructureRequest>> {
         let own: Vec<String> = own.iter().map(|&name| name.into()).collect();
         let named = if self.structure.is_empty() { &own } else { &self.structure };
         Ok(structures_at(registry, named, self.quality.as_deref())?.iter().map(Into::into).collect())
     }
 
-    /// Whether to skip the structure. Brute force takes minutes on a large mesh, so it is skipped unless it is named.
+    /// Whether to skip the structure. Brute force takes minutes on a large mesh.
     pub fn leaves_out(&self, name: &str, triangles: usize) -> bool {
         name == BRUTE_FORCE && is_large(triangles) && !self.names_brute_force()
     }
 
-    /// Whether brute force is named; `all` does not count.
+    /// Whether the command line names brute force. The word `all` does not name brute force.
     pub fn names_brute_force(&self) -> bool {
         self.structure.iter().any(|spec| bare(spec).eq_ignore_ascii_case(BRUTE_FORCE))
     }
 }
 
-/// Adds a twin for the A/A check: a second build of the SAH tree. Without a SAH tree, the twin is a second build of
-/// another structure. A slow structure has a twin only if all structures are slow.
+/// Adds a twin, which is a second build of one structure. The SAH tree is preferred. A slow structure has a twin only
+/// if all structures are slow.
 pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest> {
     let slow = |structure: &&StructureRequest| [BRUTE_FORCE, REPORT_TREE].contains(&structure.name());
     let sah = structures.iter().find(|structure| structure.name() == SAH_TREE);
@@ -164,8 +163,6 @@ pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest>
     structures
 }
 
-/// Whether work that is proportional to the triangles is sampled or skipped. On a large mesh, brute force takes at
-/// least ten milliseconds per ray.
 pub fn is_large(triangles: usize) -> bool {
     triangles > 1 << 22
 }
@@ -245,7 +242,7 @@ mod tests {
         let labels = |specs: &[&str], quality| -> Vec<String> {
             let specs: Vec<String> = specs.iter().map(|&spec| spec.into()).collect();
             let chosen = structures_at(&registry, &specs, quality).unwrap();
-            // A case stores only the label. The label must therefore select the same configuration.
+            // The label must select the configuration of the choice.
             assert!(chosen.iter().all(|choice| registry.choose(&choice.label).unwrap().config == choice.config));
             chosen.into_iter().map(|choice| choice.label).collect()
         };

@@ -88,7 +88,6 @@ impl ViewArgs {
         Ok(scene)
     }
 
-    /// Like [`seen`](Self::seen), but adds a note if a mesh file has the default view.
     pub fn of(&self, scene: Scene) -> anyhow::Result<Scene> {
         let mut scene = self.seen(scene)?;
         if scene.is_framed && self.looks_from().is_none() {

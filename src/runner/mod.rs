@@ -1,4 +1,4 @@
-//! Runners: programs in any language that build a structure, trace rays and measure their own times.
+//! A runner is an external program that builds a structure and traces rays.
 //! [`crate::scene::files`] documents the protocol.
 
 mod program;
@@ -23,7 +23,7 @@ pub use program::Program;
 
 pub struct Runner {
     state: Mutex<State>,
-    /// The folder of the files for the program.
+    /// The folder of the scene, ray and hit files.
     folder: TempDir,
     capabilities: Capabilities,
     build_ns: u64,
@@ -102,7 +102,7 @@ impl DynAccel for Runner {
         Footprint { other: self.bytes, ..Footprint::default() }
     }
 
-    /// The shape is unknown: one leaf with all triangles represents it.
+    /// One leaf with all triangles represents the unknown shape.
     fn shape(&self) -> TreeShape {
         TreeShape { leaves: 1, references: self.triangles, largest_leaf: self.triangles, ..TreeShape::default() }
     }

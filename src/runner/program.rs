@@ -1,4 +1,4 @@
-//! The program of a runner.
+//! Commands that start runners.
 
 use std::path::Path;
 use std::time::Duration;
@@ -10,16 +10,16 @@ use crate::measure::program::file_id;
 /// A program that implements the protocol of runners.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
-    /// `NAME` of `NAME=COMMAND`; `None` without a valid name.
+    /// The valid `NAME` of `NAME=COMMAND`.
     name: Option<String>,
     command: String,
-    /// The command without the name, split as by a shell.
+    /// The program and its arguments, split by the rules of a shell.
     words: Vec<String>,
     limit: Duration,
 }
 
 impl Program {
-    /// Reads `COMMAND` or `NAME=COMMAND`, and starts the program once to check it.
+    /// Starts the program once as a check.
     pub fn new(command: &str, limit: Duration) -> Result<Self, String> {
         let named = command.split_once('=').filter(|(name, _)| is_name(name));
         let (name, line) = named.map_or((None, command), |(name, line)| (Some(name.to_owned()), line));
@@ -29,12 +29,11 @@ impl Program {
         program.start(1).map(|_| program)
     }
 
-    /// The command as typed, with the name.
+    /// The command as typed.
     pub fn command(&self) -> &str {
         &self.command
     }
 
-    /// By default, the file name of the program, followed by the arguments.
     pub fn name(&self) -> String {
         self.name.clone().unwrap_or_else(|| {
             let file = Path::new(&self.words[0]).file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -42,8 +41,8 @@ impl Program {
         })
     }
 
-    /// The first digits of the SHA-256 of the program and of each file among the arguments. `None` if no word of the
-    /// command is the path of a file.
+    /// Identifies the contents of all readable files that the command names. `None` if the command names no readable
+    /// file.
     pub fn build_id(&self) -> Option<String> {
         let ids: Vec<String> = self.words.iter().filter_map(|word| file_id(Path::new(word)).ok()).collect();
         (!ids.is_empty()).then(|| ids.join(" "))

@@ -19,11 +19,11 @@ pub(super) struct State {
     pub failure: Option<String>,
     /// Element `i` states whether a ray set has the number `i`.
     pub taken: Vec<bool>,
-    /// The elapsed time divided by the time that the runner reported, for each pass longer than [`LONG_NS`].
+    /// For each pass longer than [`LONG_NS`], the elapsed time divided by the reported time.
     pub outside: Vec<f64>,
 }
 
-/// Minimum time of a pass for [`State::outside`]. Request and reply take a notable part of a shorter pass.
+/// Minimum elapsed time of a pass for [`State::outside`]. Request and reply take a notable part of a shorter pass.
 const LONG_NS: u64 = 1_000_000;
 
 pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -35,7 +35,7 @@ pub(super) struct RaySet<'a> {
     folder: &'a Path,
     number: usize,
     rays: Cow<'a, [Ray]>,
-    /// The rays that the runner has loaded; `None` before the first query.
+    /// The ID of the rays that the runner has loaded.
     loaded: Mutex<Option<RaysId>>,
     own_ns: AtomicU64,
 }

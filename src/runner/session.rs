@@ -16,7 +16,6 @@ pub(super) struct Session {
     limit: Duration,
 }
 
-/// A line of output, and the time from the request to the line.
 pub(super) struct Reply {
     pub text: String,
     pub ns: u64,
@@ -25,11 +24,11 @@ pub(super) struct Reply {
 /// The maximum length of a reply in bytes. The remainder of a longer line counts as output without a request.
 const LONGEST: u64 = 4096;
 
-/// The time that a program has to end after its input was closed.
+/// The maximum wait for the end of a program after its input was closed.
 const GRACE_PERIOD: Duration = Duration::from_millis(500);
 
 impl Session {
-    /// A program with several threads may run on all cores that this process may use.
+    /// A program with several threads is not bound to the cores of the calling thread.
     pub fn start(words: &[String], threads: usize, limit: Duration) -> Result<Self, String> {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).stdin(Stdio::piped()).stdout(Stdio::piped());
@@ -37,7 +36,7 @@ impl Session {
         let child = if threads > 1 { on_all_cores(|| command.spawn()) } else { command.spawn() };
         let mut child = child.map_err(|cause| format!("the program {:?} cannot be started: {cause}", words[0]))?;
         let (input, output) = (child.stdin.take(), child.stdout.take().expect("its output is a pipe"));
-        // The channel holds one line. A program that writes more without a request fills the pipe and then blocks.
+        // The channel holds one line. Further output without a request fills the pipe until the program blocks.
         let (sender, lines) = sync_channel(1);
         thread::spawn(move || {
             let mut output = BufReader::new(output);
@@ -52,8 +51,7 @@ impl Session {
         Ok(Self { child, input, lines, limit })
     }
 
-    /// Sends a line and returns the reply. If the request fails, the program is killed, and the error message is a
-    /// clause.
+    /// Sends a line and returns the reply. Any error kills the program.
     pub fn request(&mut self, request: &str) -> Result<Reply, String> {
         let reply = self.exchange(request);
         if reply.is_err() {
@@ -91,8 +89,8 @@ impl Session {
         }
     }
 
-    /// Closes the input, waits up to `patience`, then kills the program and all programs that it has started. Returns
-    /// the exit status if the program ended before it was killed.
+    /// Closes the input, waits up to `patience`, then kills the program. Returns the exit status if the program ended
+    /// within `patience`.
     fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
         self.input = None;
         let has_ended = process_group::ends_within(&mut self.child, patience);
@@ -107,13 +105,13 @@ impl Drop for Session {
     }
 }
 
-/// Removes the line break, and replaces control characters, which would garble a terminal.
+/// Replaces control characters, which would garble a terminal.
 fn text(line: &[u8]) -> String {
     let text = String::from_utf8_lossy(line);
     text.trim_end_matches(['\r', '\n']).chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// A reply with another first word than `form` may be a message to the user.
+/// An unexpected first word suggests that the reply is a message to the user.
 pub(super) fn unexpected(request: &str, reply: &str, form: &str) -> String {
     let word = |line: &str| line.split(' ').next().map(String::from);
     let advice = if word(reply) == word(form) { "" } else { ": write messages to standard error" };

@@ -1,4 +1,4 @@
-//! A case: one epoch of one scene, measured by one process. This process does not need the study that planned the case.
+//! A case: one epoch of one scene, measured by one process.
 
 use std::collections::BTreeMap;
 
@@ -14,16 +14,15 @@ use crate::request::{Measuring, SceneRequest, StructureRequest, WorkloadRequest,
 pub struct Case {
     pub study: String,
     pub scene: SceneRequest,
-    /// The position on the axes of the study, such as `level=7`.
+    /// Parameters that the study varies, such as `level=7`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub labels: BTreeMap<String, String>,
-    /// In the order of the tables.
     pub structures: Vec<StructureRequest>,
     pub workloads: WorkloadRequest,
     pub settings: Settings,
-    /// Counted from 0. Only epoch 0 checks hits and counts work.
+    /// Counted from 0. Only epoch 0 checks hits and counts triangle tests.
     pub epoch: usize,
-    /// Planned epochs. A later run with a larger number adds epochs.
+    /// The number of planned epochs.
     pub epochs: usize,
     /// The command line that planned the case.
     pub command: String,
@@ -31,18 +30,20 @@ pub struct Case {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Samples per structure and workload, at least 1; fewer if the budget runs out.
+    /// Maximum number of samples per structure and workload, at least 1.
     pub runs: usize,
-    /// Time for all samples of an epoch. A short budget reduces the samples, then the rays. `None` is unlimited.
+    /// Time limit for all samples of an epoch. `None` is unlimited.
     pub budget_ns: Option<u64>,
-    /// A structure above this multiple of the median time is timed on fewer rays. `None` is unlimited.
+    /// Time limit of a sample, relative to the median of all samples. `None` is unlimited.
+    ///
+    /// A structure above the limit is timed on fewer rays.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest: Option<f64>,
     pub check: Check,
-    /// A structure with a longer build has no times. `None` is unlimited.
+    /// Time limit of a build in seconds. `None` is unlimited.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub build_limit_s: Option<f64>,
-    /// Specs of structures whose triangle tests are counted over all rays, not over a sample.
+    /// Specs of structures whose triangle tests are counted over all rays.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub whole_counts: Vec<String>,
     /// Whether to drop the scene if a structure has no time.
@@ -56,22 +57,25 @@ pub struct Settings {
     pub threads: usize,
 }
 
-/// The reference for hits, in epoch 0.
+/// The method that checks the hits of epoch 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "against", rename_all = "kebab-case")]
 pub enum Check {
-    /// Brute force over the same triangle test, with about `tests` tests per workload. A wrong hit removes the times.
+    /// Brute force with the triangle test of each structure.
+    ///
+    /// Wrong hits remove times of the structure.
     BruteForce {
+        /// Approximate maximum number of brute-force triangle tests per workload.
         tests: usize,
-        /// Time limit of all checks of a scene. `None` is unlimited.
+        /// Time limit for all checks of a scene. `None` is unlimited.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         limit_ns: Option<u64>,
     },
-    /// Exact arithmetic. Errors are counted, and structures with errors keep their times.
+    /// Exact arithmetic. Structures with wrong hits keep their times.
     Oracle,
 }
 
-/// The default of `tests` in [`Check::BruteForce`]: about 0.2 s per workload.
+/// The default of `tests` in [`Check::BruteForce`].
 pub const TESTS: usize = 1 << 27;
 
 impl Default for Check {
@@ -80,7 +84,7 @@ impl Default for Check {
     }
 }
 
-/// The usual [`Settings::slowest`]. More rays would take much time, but hardly improve the ratios of slow structures.
+/// The usual value of [`Settings::slowest`].
 pub const SLOWEST: f64 = 4.0;
 
 impl Settings {
@@ -89,7 +93,7 @@ impl Settings {
         matches!(self.check, Check::BruteForce { limit_ns: Some(_), .. })
     }
 
-    /// One sample of all rays on one thread, checked against brute force.
+    /// The settings for one sample of all rays on one thread.
     pub fn one_sample(secondary_ray_structure: impl Into<String>) -> Self {
         Self {
             runs: 1,
@@ -119,7 +123,7 @@ impl Settings {
     }
 }
 
-/// Builds over this many triangles take about a quarter of the fixed time of an epoch.
+/// The number of triangles per unit of [`Case::work`].
 const TRIANGLES: u64 = 12_000;
 
 impl Case {
@@ -131,7 +135,6 @@ impl Case {
         format!("epoch {} of {}: {}", self.epoch + 1, self.epochs, self.scene_title())
     }
 
-    /// The readable part of the file name.
     pub fn key(&self) -> String {
         let labels: String = self.labels.iter().map(|(name, value)| format!("{name}={value} ")).collect();
         format!("{} {labels}epoch {}", self.scene_title(), self.epoch)
@@ -139,11 +142,11 @@ impl Case {
 
     /// Approximate duration in an arbitrary unit.
     pub fn work(&self) -> u64 {
-        // Epoch 0 also checks hits and counts work.
+        // Epoch 0 also checks hits and counts triangle tests.
         (4 + self.scene.triangles as u64 / TRIANGLES) * if self.epoch == 0 { 2 } else { 1 }
     }
 
-    /// Whether both cases belong to one measurement. Their epochs may differ.
+    /// Whether both cases belong to one measurement. The epochs of the cases may differ.
     pub fn is_same_measurement(&self, other: &Self) -> bool {
         self.identity() == other.identity()
     }
@@ -157,7 +160,7 @@ impl Case {
         (&self.scene.hash, self.scene_title(), &self.labels) == (&other.scene.hash, other.scene_title(), &other.labels)
     }
 
-    /// Everything that the result depends on, except the number of the epoch.
+    /// The fields that identify a measurement. The epoch is excluded.
     fn identity(&self) -> Value {
         let structure =
             |own: &StructureRequest| json!([own.spec, own.role, own.runner.as_ref().map(|own| &own.config)]);
@@ -177,17 +180,17 @@ impl Case {
         let settings = serde_json::to_value(&self.settings).expect("settings have text keys");
         let Value::Object(mut map) = settings else { unreachable!("settings are a struct") };
         map.remove("whole_counts");
-        // The default limit grows with the mesh: scenes have different limits.
+        // By default, scenes of different sizes have different build limits.
         map.remove("build_limit_s");
         let workloads = serde_json::to_value(&self.workloads).expect("a request has text keys");
-        // The scenes of `replicate` form one group, although some have all rays and others only primary rays.
+        // In `replicate`, scenes with different workloads form one group.
         if !matches!(self.workloads, WorkloadRequest::Picture | WorkloadRequest::PrimaryPicture) {
             map.insert("workloads".into(), workloads);
         }
         map
     }
 
-    /// A hash of the identity and the machine. The file name consists of the key and this hash.
+    /// A hash of `identity` and `machine`.
     pub fn digest(&self, machine: &impl Serialize) -> String {
         let text = serde_json::to_string(&(self.identity(), machine)).expect("a case has text keys");
         format!("{:08x}", checksum(text.bytes().map(u64::from)) as u32)

@@ -6,18 +6,18 @@ use crate::report::{ClaimVerdict, Finding, Outcome};
 
 struct Claim {
     prediction: u8,
-    /// The key of the finding that states the number.
+    /// The key of the finding whose value is compared with `range`.
     key: &'static str,
     what: &'static str,
-    /// The smallest and the largest expected value; infinity means no bound.
+    /// The smallest and the largest expected value. Infinity means no bound.
     range: [f64; 2],
     scale: Scale,
 }
 
-/// The correction of an interval. All claims are judged together, so the correction depends on [`CLAIMS`].
+/// The correction of an interval for the number of claims.
 #[derive(Clone, Copy)]
 enum Scale {
-    /// A ratio: the interval of its logarithm is widened.
+    /// The interval of the logarithm is widened.
     Ratio,
     Number,
     /// The interval of the finding is already corrected for all claims.
@@ -31,9 +31,9 @@ const NONE: f64 = f64::INFINITY;
 const RAYS: [f64; 2] = [-2.0, 2.0];
 const WHOLE: [f64; 2] = [20.0, NONE];
 const PLANE: [f64; 2] = [1.2, 5.0];
-// The prediction is "more tests than brute force", so the number of brute force, 1, is outside the range.
+// The prediction is "more tests than brute force". Brute force has the value 1.
 const MORE: [f64; 2] = [1.0_f64.next_up(), NONE];
-// The predictions have the words "well" and "badly" without numbers. This project chose these values of tau.
+// The predictions state no numbers for Kendall's tau. This project chose these bounds.
 const WELL: [f64; 2] = [0.7, NONE];
 const BADLY: [f64; 2] = [-NONE, 0.5];
 
@@ -119,7 +119,7 @@ impl Claim {
     }
 }
 
-/// Empty if no claim has a measured number.
+/// Empty if no claim of the study is measured.
 pub fn judge(study: &str, findings: &[Finding]) -> Vec<ClaimVerdict> {
     let verdicts: Vec<ClaimVerdict> = of_study(study).iter().map(|claim| claim.judge(findings)).collect();
     let is_measured = verdicts.iter().any(|verdict| verdict.outcome != Outcome::NotMeasured);

@@ -1,5 +1,4 @@
-//! The measured cases that a report reads. All cases are of one study, one [group](Case::group), one build and one
-//! machine.
+//! The measured cases that a report reads.
 #![doc = include_str!("SCHEMA.md")]
 
 use serde::{Deserialize, Serialize};
@@ -25,7 +24,7 @@ pub struct Dataset {
     pub schema: u32,
     pub provenance: Provenance,
     pub measured: Vec<Measured>,
-    /// Sentences about missing or omitted measurements.
+    /// Sentences, for example about missing measurements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -34,7 +33,7 @@ pub struct Dataset {
 pub struct SceneEpochs<'a> {
     /// The first case of the scene in the dataset.
     pub case: &'a Case,
-    /// At least one epoch, in the order of the epoch numbers.
+    /// Not empty. Sorted by epoch number.
     pub epochs: Vec<&'a Epoch>,
 }
 
@@ -87,7 +86,7 @@ impl Dataset {
         bytes
     }
 
-    /// Also true for a dataset of another version.
+    /// Ignores the schema version.
     pub fn is_dataset(value: &serde_json::Value) -> bool {
         ["schema", "provenance", "measured"].iter().all(|field| value.get(field).is_some())
     }

@@ -1,4 +1,4 @@
-//! Measures the cases of a study that the journal lacks, and reports.
+//! Measures the cases of a study and makes the report.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -20,9 +20,10 @@ pub struct Run<'a> {
     pub folder: &'a Path,
     /// If `Some(false)`, the journal is temporary. If `None`, the plan decides.
     pub keep_journal: Option<bool>,
-    /// Measures all cases again, even if the journal has them.
+    /// If `true`, cases in the journal are measured again.
     pub fresh: bool,
-    /// Options of the processes that measure one case each. If `None`, this process measures all cases.
+    /// If `Some`, each case is measured by a separate process with these options. If `None`, this process measures all
+    /// cases.
     pub processes: Option<&'a [OsString]>,
     pub screen: &'a mut dyn Screen,
 }
@@ -39,7 +40,7 @@ pub struct RunOutcome {
     pub failures: Vec<StudyError>,
 }
 
-/// Measures the cases of `plan` that the journal lacks. An error of a single scene does not end the run.
+/// An error of a single scene does not end the run.
 pub fn run(study: &Study, matches: &ArgMatches, plan: &Plan, run: &mut Run) -> anyhow::Result<RunOutcome> {
     let threads = plan.cases.first().map_or(1, |case| case.settings.threads);
     let threads = Threads::unstarted(threads);
@@ -83,10 +84,10 @@ struct Engine<'a> {
     journal: Journal,
     provenance: Provenance,
     threads: Threads,
-    /// The last measured scene and its name on the command line. Loading a scene again may take seconds.
+    /// The latest measured scene, with the name of the scene on the command line.
     loaded: Option<(OsString, Scene)>,
     failures: Vec<StudyError>,
-    /// Cases whose scenes get no further epochs, because of a failure or the time limit.
+    /// The scenes of these cases get no further epochs.
     ended: Vec<Case>,
 }
 
@@ -95,7 +96,7 @@ impl Engine<'_> {
         self.ended.iter().any(|ended| ended.is_of_scene(case))
     }
 
-    /// Returns whether the user interrupted the run.
+    /// Returns `true` if the user interrupted the run.
     fn measure(&mut self, run: &mut Run) -> anyhow::Result<bool> {
         let clock = SystemClock::start();
         let mut began = 0;
@@ -144,7 +145,7 @@ impl Engine<'_> {
         Ok(false)
     }
 
-    /// Skips the structures that epoch 0 could not build in time.
+    /// Skips the structures that epoch 0 skipped.
     fn with_skipped(&self, case: &Case) -> Case {
         let first = self.journal.get(&Case { epoch: 0, ..case.clone() }).filter(|_| case.epoch > 0);
         let structures = first.map_or(&case.structures, |file| &file.case.structures).clone();
@@ -205,8 +206,7 @@ impl Engine<'_> {
         screen.warn(&report.warnings);
         let (mut tables, mut notes, mut foot) = (vec![], vec![], vec![]);
         if is_reported || !dataset.measured.is_empty() {
-            // Means use only the epochs that all scenes have. So failed and interrupted scenes are left out of the
-            // means.
+            // The summary leaves out scenes that lack epochs because of a failure or an interruption.
             let lacks = |case: &Case| {
                 self.plan.cases.iter().any(|other| other.is_of_scene(case) && self.journal.get(other).is_none())
             };

@@ -16,8 +16,8 @@ use crate::request::{TWIN, known_defect};
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::{ErrorCounts, Kind, Validation};
 
-/// An epoch rebuilds all structures and times them in rounds. A round times every structure on every workload once, in
-/// random order.
+/// In an epoch, all structures are rebuilt and measured in rounds. A round measures every structure on every workload
+/// once, in random order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
     pub scene: String,
@@ -30,13 +30,13 @@ pub struct Epoch {
     /// Counted from 0.
     pub epoch: usize,
     pub environment: Environment,
-    /// In the order of the case.
+    /// In the order of `Case::structures`.
     pub structures: Vec<Structure>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Structure {
-    /// The name with the keys that differ from the defaults.
+    /// `NAME` or `NAME:key=value,..`, without default values.
     pub label: String,
     /// The role in the study, for example [`TWIN`], or empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -45,14 +45,14 @@ pub struct Structure {
     pub name: String,
     pub config: Value,
     pub triangle_test: String,
-    /// The reason why the structure has no times, as a clause. `rays` is then empty.
+    /// The reason why the structure has no times, as a clause. If `Some`, `rays` is empty.
     pub refused: Option<String>,
-    /// Whether wrong hits are the reason for `refused`.
+    /// Whether the structure is refused because of wrong hits.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// The median of up to three builds. A runner measures the build time itself.
+    /// The median of up to three builds. A runner reports the build time.
     pub build_ns: u64,
-    /// Peak memory during the build minus memory in use before the build. Only epoch 0 counts memory.
+    /// Peak memory during the build minus memory in use before the build. `None` except in epoch 0.
     pub build_peak_bytes: Option<usize>,
     /// Elapsed time / reported time of a runner, as the median over the queries.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -83,22 +83,22 @@ pub struct Rays {
     pub query: Query,
     /// The number of rays of the workload.
     pub all: usize,
-    /// The number of rays of a sample, at most `all`.
+    /// The number of rays in a sample, at most `all`.
     pub rays: usize,
-    /// Checksum of the hits on rays that every epoch traces.
+    /// Checksum of hits. The checksum covers only rays that all epochs trace.
     pub checksum: u64,
-    /// The time of each sample. Samples of all structures with the same index are from the same round.
+    /// The time of each sample. Entry `i` of every structure was measured in round `i`.
     pub ns: Vec<u64>,
-    /// Times of the same samples on the subsets on which slower structures are timed.
+    /// Times on subsets of the rays, for the comparison with slower structures.
     pub parts: Vec<SubsetSamples>,
     /// The reason why there is no time, as a clause.
     pub untimed: Option<String>,
-    /// Whether wrong hits are the reason for `untimed`.
+    /// Whether the time is missing because of wrong hits.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub declined: Option<String>,
-    /// Only in epoch 0, because hits do not change between epochs.
+    /// Only in epoch 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checked: Option<Checked>,
     /// Only in epoch 0.
@@ -107,19 +107,18 @@ pub struct Rays {
     /// Only in epoch 0 and with [`Check::Oracle`](super::Check::Oracle).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorCounts>,
-    /// The time of the slowest ray, if rays are traced one by one. Measured only together with `errors`.
+    /// The longest time of a single ray. Only in epoch 0 and with [`Check::Oracle`](super::Check::Oracle).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest_ns: Option<u64>,
 }
 
-/// The result of the latest check. Brute force checks a sample of rays before the timing. Another tree checks all timed
-/// rays after the timing.
+/// The result of the latest check of the hits.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Checked {
     pub rays: usize,
-    /// Rays with a hit that rounding cannot explain.
+    /// Rays with a result that rounding cannot explain.
     pub errors: usize,
-    /// Rays whose hit differs only by the rounding of the triangle test.
+    /// Rays with a result that differs only by rounding of the triangle test.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub rounded: usize,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -148,13 +147,14 @@ impl Checked {
     }
 }
 
-/// Counts over evenly spread rays of a workload. The counts are equal on all machines. A count is `None` if the
-/// structure does not count this event.
+/// Counts over evenly spread rays of a workload. The counts are equal on all machines. `None` marks a count that the
+/// structure does not provide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RayCounts {
     pub rays: usize,
     pub hits: usize,
-    /// Checksum of the bits of all `t`. All structures with the exact triangle test have equal checksums.
+    /// For closest-hit queries, the checksum of the bits of all `t`. For any-hit queries, the checksum of hits and
+    /// misses.
     pub distances: u64,
     pub tests: Option<u64>,
     /// A block is a group of triangles that are tested at once.
@@ -177,12 +177,11 @@ impl From<&dyn DynAccel> for Shape {
 }
 
 impl Structure {
-    /// Wrong hits of a runner or of a structure with known defects exclude only the structure, not the scene.
     pub fn may_err(&self) -> bool {
         self.name == RUNNER || known_defect(&self.name).is_some()
     }
 
-    /// A twin is a second build of a structure in the same epoch, for the A/A check.
+    /// A twin is a second build of a structure in the same epoch.
     pub fn is_twin(&self) -> bool {
         self.role == TWIN
     }
@@ -193,7 +192,7 @@ impl Rays {
         *self = Self { untimed: Some(reason), ns: vec![], parts: vec![], rays: 0, checksum: 0, ..self.clone() };
     }
 
-    /// Times of all samples on the subset of `rays` rays. Empty if this subset was not timed.
+    /// One value per sample. Empty if no subset of `rays` rays was timed.
     pub fn ns_per_ray(&self, rays: usize) -> Vec<f64> {
         let part = self.parts.iter().find(|part| part.rays == rays).map(|part| &part.ns);
         let ns = if rays == self.rays { Some(&self.ns) } else { part };
@@ -226,7 +225,7 @@ impl Epoch {
         scene_name(&self.scene, self.stand_in)
     }
 
-    /// All timed structures have times on this number of rays.
+    /// The number of rays in the smallest sample on the workload. 0 if no structure was timed.
     pub fn common_rays(&self, workload: &str) -> usize {
         let rays = self.structures.iter().filter(|structure| structure.refused.is_none()).flat_map(|s| &s.rays);
         let timed = rays.filter(|rays| rays.workload == workload && !rays.ns.is_empty());
@@ -255,8 +254,8 @@ impl Epoch {
         each_once(failures)
     }
 
-    /// Checks that every structure has a time on every workload, and that all `t` are bitwise equal. All structures
-    /// must have the same triangle test.
+    /// Returns an error if a time is missing or the structures differ in a `t`. All structures must have the same
+    /// triangle test.
     pub fn check_complete(&self) -> Result<(), StudyError> {
         if let Some(failure) = self.failures().into_iter().next() {
             return Err(StudyError::Missing { failure: failure.sentence, wrong: failure.wrong });
@@ -267,23 +266,22 @@ impl Epoch {
         self.agree(|_| Some(""))
     }
 
-    /// Checks that all structures with the exact triangle test return bitwise equal `t`. A test that rounds may place a
-    /// hit outside the box of its triangle. One tree then finds the hit, and another tree culls it. So structures with
-    /// tests that round are not compared.
+    /// Returns an error if structures with the exact triangle test differ in a `t`. With a triangle test that rounds,
+    /// correct trees may return different hits.
     pub fn check_agreement(&self) -> Result<(), StudyError> {
         self.agree(|structure| {
             Some(structure.triangle_test.as_str()).filter(|test| *test == Exact::NAME && !structure.may_err())
         })
     }
 
-    /// Compares the structures of one `group`. A structure without a group is skipped.
+    /// Compares structures for which `group` returns equal values. Structures are skipped if `group` returns `None`.
     fn agree<'a>(&'a self, group: impl Fn(&'a Structure) -> Option<&'a str>) -> Result<(), StudyError> {
         let mut seen = BTreeMap::new();
         let all = self.structures.iter().filter(|structure| structure.refused.is_none());
         for (structure, own) in all.filter_map(|structure| Some((structure, group(structure)?))) {
             for rays in structure.rays.iter().filter(|rays| rays.untimed.is_none()) {
                 let Some(counts) = rays.counts else { continue };
-                // Slow trees are counted on fewer rays, so only equal numbers of rays are compared.
+                // Only checksums over the same number of rays are comparable.
                 let known = seen.entry((own, &rays.workload, counts.rays)).or_insert((structure, counts.distances));
                 if known.1 != counts.distances {
                     let (one, other) = (known.0.label.clone(), structure.label.clone());
@@ -321,8 +319,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Each structure has a label, a build time in ns, and times of rounds of 1000 primary rays in ns. A repeated label
-    /// makes a twin.
+    /// An element of `structures` is (label, build time in ns, sample times in ns). A structure with a repeated label
+    /// is a twin.
     pub fn example(scene: &str, triangles: usize, epoch: usize, structures: &[(&str, u64, &[u64])]) -> Epoch {
         let structure = |(place, &(label, build_ns, ns)): (usize, &(&str, u64, &[u64]))| Structure {
             label: label.into(),

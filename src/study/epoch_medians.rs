@@ -2,11 +2,10 @@
 
 use crate::measure::{Estimate, Rerun, Variance, median};
 
-/// Returns one log time per epoch and structure. `epochs` has the log times of all samples, by epoch, structure and
-/// round.
+/// Returns one log time per epoch and structure. `epochs` contains log times, indexed by epoch, structure and round.
 ///
-/// Some disturbances slow all structures of a round. The median deviation of all structures in the round estimates the
-/// disturbance. This estimate is subtracted from all samples of the round.
+/// Some disturbances slow all structures of a round. So the median shift of the structures is subtracted from all
+/// samples of the round.
 pub(super) fn epoch_medians(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
     let middle = |values: &[f64]| median(values).expect("a structure has samples");
     let rounds = |trees: &[Vec<f64>]| trees.iter().map(Vec::len).min().unwrap_or(0);
@@ -21,7 +20,7 @@ pub(super) fn epoch_medians(mut epochs: Vec<Vec<Vec<f64>>>) -> Vec<Vec<f64>> {
     epochs.iter().map(|trees| trees.iter().map(|tree| middle(tree)).collect()).collect()
 }
 
-/// exp of the mean of `of` over the epochs, with an interval. The A/A noise adds the variance `noise`.
+/// `of` computes a log ratio from one row of `epoch_medians`.
 pub(super) fn ratio(epoch_medians: &[Vec<f64>], of: impl Fn(&[f64]) -> f64, noise: Variance) -> Estimate {
     Rerun::of(&values(epoch_medians, of), noise).expect("there is an epoch").ratio()
 }

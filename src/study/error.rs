@@ -2,7 +2,7 @@ use super::journal::JournalError;
 use crate::accel::BuildError;
 use crate::report::number::plural;
 
-/// The reason why a study or a single scene cannot continue.
+/// An error of a whole study or of one scene.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     #[error("{structure} cannot be built over {scene}: {cause}")]
@@ -43,10 +43,9 @@ pub enum StudyError {
     Journal(#[from] JournalError),
 }
 
-/// The value of `what` in [`StudyError::EpochsDiffer`] if two epochs differ in hits.
+/// The value of `what` in [`StudyError::EpochsDiffer`] if two epochs return different hits.
 pub const HITS_DIFFER: &str = "the hits";
 
-/// `rays` is empty if the epochs differ in their structures.
 fn workload(rays: &str) -> String {
     if rays.is_empty() { String::new() } else { format!(", {rays} rays") }
 }

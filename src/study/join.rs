@@ -1,6 +1,6 @@
-//! Joins the separately measured epochs of a scene into one measurement.
+//! Makes the separately measured epochs of each scene comparable.
 //!
-//! Only epoch 0 checks hits and counts work. So a scene without epoch 0 is left out.
+//! Only epoch 0 checks hits. So a scene without epoch 0 is left out.
 
 use super::epoch::Rays;
 use super::error::HITS_DIFFER;
@@ -10,7 +10,7 @@ use crate::report::words::listed;
 
 #[derive(Debug, Default)]
 pub struct JoinedEpochs {
-    /// In the order of the input.
+    /// The joined epochs, in the order of the input.
     pub measured: Vec<Measured>,
     /// One error per scene whose epochs cannot be joined.
     pub failures: Vec<StudyError>,
@@ -20,7 +20,7 @@ pub struct JoinedEpochs {
     pub missing: Vec<String>,
 }
 
-/// With [`whole`](super::case::Settings::whole), every structure must have all times.
+/// With [`whole`](super::case::Settings::whole), every structure must have a time on every workload.
 pub fn join(measured: Vec<Measured>) -> JoinedEpochs {
     let mut scenes: Vec<Vec<(usize, Measured)>> = vec![];
     for own in measured.into_iter().enumerate() {
@@ -67,7 +67,7 @@ fn lacks(title: &str, missing: &[usize]) -> String {
     format!("{title}: {epochs} {} {are} not measured", listed(&numbers))
 }
 
-/// Makes the epochs of one scene consistent. Epoch 0 must be the first.
+/// Makes the epochs of one scene consistent. `epochs[0]` must be epoch 0.
 fn make_consistent(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
     let title = epochs[0].title();
     for place in 0..epochs[0].structures.len() {
@@ -114,7 +114,7 @@ fn make_consistent(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
             if let Some(other) = differing(|a, b| a.rays == b.rays).filter(|_| structure.name != RUNNER) {
                 return apart(other, &first.workload, "the number of timed rays");
             }
-            // The clock of a runner chooses how many rays an epoch times. Keep the largest number that every epoch has.
+            // A runner chooses the number of timed rays by its clock. Keep the largest number that every epoch has.
             let common = common_sizes(epochs, place, kind);
             let Some(&largest) = common.first() else {
                 refuse(epochs, place, UNSTEADY);
@@ -144,7 +144,7 @@ fn refuse(epochs: &mut [&mut Epoch], place: usize, reason: &str) {
     }
 }
 
-/// Numbers of rays on which all epochs time a structure, the largest first.
+/// Returns each number of timed rays that occurs in every epoch, in descending order.
 fn common_sizes(epochs: &[&mut Epoch], place: usize, kind: usize) -> Vec<usize> {
     let sizes = |epoch: &&mut Epoch| -> Vec<usize> {
         let rays = &epoch.structures[place].rays[kind];

@@ -1,11 +1,7 @@
-//! The journal of a study is a folder with one file per scene and epoch.
-//!
-//! A killed run resumes where it stopped. Several machines can write to one folder.
+//! The journal of a study is a folder of case files. A case is one epoch of one scene.
 //!
 //! Each file is written atomically and never changed. A file name that begins with a dot marks an unfinished write.
-//! File names contain a digest of settings, build and machine, so files of different settings do not collide. Any
-//! process may read at any time. Any number of jobs of `study plan` may write. Only one run at a time may measure
-//! missing cases.
+//! File names contain a digest of settings, build and machine. Any process may read at any time.
 
 mod case_file;
 mod error;
@@ -26,20 +22,20 @@ pub struct Journal {
     folder: PathBuf,
     provenance: Provenance,
     files: Vec<CaseFile>,
-    /// The number of leading `files` to ignore. With `fresh`, all files found by `open` are ignored.
+    /// [`get`](Self::get) ignores this number of files at the beginning of `files`.
     ignored: usize,
-    /// The lock of the folder while a run measures. The system releases the lock when the process ends.
+    /// The lock on the folder. The system releases the lock when the process ends.
     _lock: Option<File>,
 }
 
 impl Journal {
-    /// With `fresh`, all cases are measured again, and the old files stay. Returns an error if cases are missing while
-    /// another run measures. Two runs would disturb each other's times.
+    /// With `fresh`, existing files are ignored. Returns [`JournalError::Busy`] if cases are missing and another run
+    /// has locked the folder. Two simultaneous runs would disturb each other's times.
     pub fn open(folder: &Path, provenance: Provenance, fresh: bool, cases: &[Case]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        // The lock comes before reading, so the files include everything that an earlier run wrote.
+        // The folder is locked before reading. Otherwise, new files of an earlier run could be missed.
         let lock = File::open(folder).ok();
-        // Windows and many network file systems cannot lock folders. A run then has no lock.
+        // Windows and many network file systems cannot lock folders. On these systems, a run continues without a lock.
         let is_taken = lock.as_ref().is_some_and(|own| matches!(own.try_lock(), Err(TryLockError::WouldBlock)));
         let files = files(folder)?.iter().map(|path| CaseFile::read(path)).collect::<Result<Vec<_>, _>>()?;
         let ignored = if fresh { files.len() } else { 0 };
@@ -51,7 +47,7 @@ impl Journal {
         }
     }
 
-    /// The newest file of the case from this build and machine.
+    /// Returns the newest file of `case` with the build and machine of this run.
     pub fn get(&self, case: &Case) -> Option<&CaseFile> {
         let machine = self.provenance.machine();
         let own = self.files[self.ignored..].iter();

@@ -1,4 +1,4 @@
-//! Kendall's tau measures how well two orders agree.
+//! Kendall's tau measures the agreement of two rankings.
 
 use std::collections::BTreeMap;
 
@@ -6,8 +6,8 @@ use super::claims::CLAIMS;
 use crate::measure::{Estimate, Rerun, Variance};
 
 /// Kendall's tau-b of points `(x, y)` (Kendall, "The treatment of ties in ranking problems", 1945). The value is 1 for
-/// equal orders and -1 for opposite orders. Pairs with i > j count if `compared(i, j)`. `None` if every compared pair
-/// has equal x, or every compared pair has equal y.
+/// equal rankings and -1 for opposite rankings. Points `i` and `j`, with `i > j`, are compared only if
+/// `compared(i, j)` is true. Returns `None` if all compared pairs have equal x or all compared pairs have equal y.
 pub fn kendall(points: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -> Option<f64> {
     let (mut same, mut x_differ, mut y_differ) = (0.0, 0.0, 0.0);
     for i in 0..points.len() {
@@ -23,16 +23,16 @@ pub fn kendall(points: &[(f64, f64)], compared: impl Fn(usize, usize) -> bool) -
 }
 
 pub struct Order {
-    /// Kendall's tau. The low end of the interval counts uncertain pairs as reversed. The high end counts uncertain
-    /// pairs as ordered.
+    /// Kendall's tau. The lower bound counts pairs without a significant order as reversed. The upper bound counts
+    /// pairs without a significant order as correctly ordered.
     pub tau: Estimate,
-    /// Indices of the significantly reversed pairs. The first estimate of a pair is expected to be larger.
+    /// Indices of the significantly reversed pairs. The estimate of the first index is expected to be larger.
     pub reversed: Vec<[usize; 2]>,
 }
 
 impl Order {
-    /// Each estimate is positive and has an expected rank. Rank 0 is the largest. Estimates of equal rank are not
-    /// compared. The interval of each comparison is corrected for `looks` times the number of pairs.
+    /// Each estimate is positive and has an expected rank. The largest estimate is expected at rank 0. Estimates of
+    /// equal rank are not compared. The intervals are corrected for multiple comparisons.
     pub fn of(ranked: &[(Estimate, usize)], looks: usize) -> Self {
         let all = || 0..ranked.len();
         let couples = all().flat_map(|i| all().map(move |j| [i, j])).filter(|&[i, j]| ranked[i].1 < ranked[j].1);
@@ -53,8 +53,8 @@ impl Order {
     }
 }
 
-/// The taus of one scene are averaged first, because all workloads of a scene use the same trees. The interval predicts
-/// the mean over as many other scenes.
+/// The taus of one scene are not independent. So the taus of each scene are averaged first. The interval predicts the
+/// mean over an equal number of other scenes.
 pub fn mean_of_scenes<'a>(taus: impl IntoIterator<Item = (&'a str, f64)>) -> Option<Estimate> {
     let mut scenes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for (scene, tau) in taus {

@@ -1,4 +1,4 @@
-//! All epochs of one structure on one workload of one scene.
+//! The measurements of one structure on one workload in all epochs.
 
 use serde_json::Value;
 
@@ -10,7 +10,6 @@ use crate::report::words::scene_name;
 use crate::report::{Cell, Table};
 use crate::request::is_obvhs;
 
-/// [`Epoch`](super::Epoch) documents the copied fields. Unknown numbers of rays and hits are 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
     pub scene: String,
@@ -27,35 +26,34 @@ pub struct Measurement {
     pub workload: String,
     pub query: Query,
     pub workload_hash: String,
-    /// Rays of the whole workload.
+    /// Number of rays in the whole workload.
     pub workload_rays: usize,
-    /// Rays of one sample, or 0 without a time.
+    /// Number of rays in one sample, or 0 if `trace_ns` is `None`.
     pub rays: usize,
-    /// Whether a sample has fewer rays than the workload. Also true without a time.
+    /// Whether a sample has fewer rays than the workload. Also true if `trace_ns` is `None`.
     pub sampled: bool,
     pub parts: Vec<SubsetSamples>,
-    /// All zero or `None` if not counted.
+    /// `RayCounts::default()` if epoch 0 has no counts.
     pub counts: RayCounts,
-    /// Checksum of the hits on the rays that all epochs trace.
+    /// Checksum of hits. The checksum covers only rays that all epochs trace.
     pub hit_checksum: Option<u64>,
-    /// The median over the epochs.
+    /// The median of `build_samples_ns`.
     pub build_ns: u64,
     pub build_samples_ns: Vec<u64>,
     pub build_peak_bytes: Option<usize>,
-    /// The median time of a sample.
+    /// The median of `samples_ns`.
     pub trace_ns: Option<f64>,
-    /// All epochs have the same number of samples. `samples_ns` lists the samples epoch by epoch.
     pub epochs: usize,
+    /// In the order of the epochs. Each epoch has the same number of samples.
     pub samples_ns: Vec<f64>,
-    /// `None` without a twin, or if the twin was timed on another number of rays.
+    /// `None` if no twin was timed on equally many rays.
     pub twin_samples_ns: Option<Vec<f64>>,
     pub twin_builds_ns: Option<Vec<u64>>,
     pub mrays_per_s: Option<f64>,
     pub shape: Shape,
     pub declined: Option<String>,
-    /// Rays checked in epoch 0.
     pub checked_rays: usize,
-    /// Rays with a hit that rounding cannot explain.
+    /// Number of checked rays with an error that rounding cannot explain.
     pub wrong_hits: usize,
 }
 
@@ -100,7 +98,7 @@ pub const COLUMNS: [MeasurementColumn; 36] = [
     ("structure_errors", |own| own.wrong_hits.into()),
 ];
 
-/// The rows of `table` must be `rows`, in order.
+/// The rows of `table` must be in the order of `rows`.
 pub fn push_columns(table: &mut Table, names: &[&str], rows: &[&Measurement]) {
     for name in names {
         let (_, cell) = COLUMNS.iter().find(|(known, _)| known == name).expect("a measurement has such a column");
@@ -113,7 +111,7 @@ pub fn is_native_obvhs(own: &Measurement) -> bool {
     is_obvhs(&own.structure) && !own.label.contains("test=")
 }
 
-/// The samples of a twin are in the measurement of its structure. A refused structure has no measurement.
+/// Twins and refused structures have no measurements.
 pub fn measurements(dataset: &Dataset) -> Vec<Measurement> {
     dataset.scenes().iter().flat_map(of_scene).collect()
 }
@@ -135,7 +133,7 @@ fn rays<'a>(scene: &'a SceneEpochs, place: usize, workload: usize) -> impl Itera
     scene.epochs.iter().filter_map(move |epoch| epoch.structures.get(place)?.rays.get(workload))
 }
 
-/// Times of all samples, ns.
+/// Times of all samples in nanoseconds.
 pub fn samples(scene: &SceneEpochs, place: usize, workload: usize) -> Vec<f64> {
     rays(scene, place, workload).flat_map(|rays| &rays.ns).map(|&ns| ns.max(1) as f64).collect()
 }
@@ -150,7 +148,7 @@ fn measurement(scene: &SceneEpochs, place: usize, twin: Option<usize>, workload:
     let samples_ns = samples(scene, place, workload);
     let trace_ns = median(&samples_ns);
     let timed = trace_ns.is_some();
-    // A runner and its twin may be timed on different numbers of rays. Such a twin is ignored.
+    // A twin with a different number of rays is ignored.
     let twin = twin.filter(|&twin| timed && rays(scene, twin, workload).all(|own| own.rays == first.rays));
     let twin_samples = twin.map(|twin| samples(scene, twin, workload)).filter(|samples| !samples.is_empty());
     let (checked_rays, wrong_hits) = first.checked.as_ref().map_or((0, 0), |own| (own.rays, own.errors));
@@ -236,19 +234,19 @@ impl Measurement {
         Some(part.ns.iter().map(|&ns| ns.max(1) as f64).collect())
     }
 
-    /// Median time per ray on `rays` rays. `None` if no sample or subset of this size was timed.
+    /// Median nanoseconds per ray, from the samples with `rays` rays. `None` if no samples have `rays` rays.
     pub fn ns_per_ray_of(&self, rays: usize) -> Option<f64> {
         Some(median(&self.samples_of(rays)?)? / rays as f64)
     }
 
-    /// ln(time of `other` / time of `self`), by epoch and round. The times are on the rays of the smaller sample.
+    /// ln(time of `other` / time of `self`), indexed by epoch and round. Both times are for the same rays.
     pub fn speed_against(&self, other: &Self) -> Option<Vec<Vec<f64>>> {
         let alike = self.epochs == other.epochs && self.workload_hash == other.workload_hash;
         let rays = self.rays.min(other.rays);
         if alike { self.ratios(&other.samples_of(rays)?, &self.samples_of(rays)?) } else { None }
     }
 
-    /// ln(time of the twin / time of `self`), by epoch and round.
+    /// ln(time of the twin / time of `self`), indexed by epoch and round.
     pub fn speed_against_twin(&self) -> Option<Vec<Vec<f64>>> {
         self.ratios(self.twin_samples_ns.as_ref()?, &self.samples_ns)
     }
@@ -260,14 +258,14 @@ impl Measurement {
         are_pairs.then(|| log_ratios(numerator, denominator, self.epochs))
     }
 
-    /// ln(ns per ray), as the median over the rounds of each epoch.
+    /// The median of ln(nanoseconds per ray), one value per epoch.
     pub fn log_paces(&self) -> Option<Vec<f64>> {
         let rounds = (self.samples_ns.len() / self.epochs.max(1)).max(1);
         let of_epoch = |ns: &[f64]| median(&ns.iter().map(|&ns| libm::log(ns / self.rays as f64)).collect::<Vec<_>>());
         (!self.samples_ns.is_empty()).then(|| self.samples_ns.chunks(rounds).filter_map(of_epoch).collect())
     }
 
-    /// ln(build time in ns) of each epoch.
+    /// ln(build time in nanoseconds), one value per epoch.
     pub fn log_builds(&self) -> Vec<f64> {
         self.build_samples_ns.iter().map(|&ns| libm::log(ns.max(1) as f64)).collect()
     }

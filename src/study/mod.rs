@@ -1,7 +1,6 @@
-//! Studies plan cases and report on the measurements.
+//! A study plans the measurements and reports the results.
 //!
-//! A [`Study`] does not measure. `engine` measures the planned cases that the journal lacks, and passes the [`Dataset`]
-//! to `report`.
+//! A [`Study`] does not measure. The module `engine` measures the planned cases.
 
 pub mod accuracy;
 pub mod attribution;
@@ -50,22 +49,22 @@ pub use verdict::Verdict;
 pub struct Study {
     /// The name of the subcommand and of the journal folder.
     pub name: &'static str,
-    /// The help text and the title in reports, one line.
+    /// One line for the help text and for the title of reports.
     pub question: &'static str,
     pub presets: Presets,
-    /// The only positional arguments are scenes.
+    /// All positional arguments are scenes.
     pub options: fn() -> Command,
     /// Returns an error if the options name something that cannot be measured.
     pub plan: fn(&ArgMatches, &Registry) -> anyhow::Result<Plan>,
-    /// A pure function. `sahara report` passes the default options.
+    /// A pure function.
     pub report: fn(&Dataset, &ArgMatches) -> Report,
 }
 
-/// The arguments with which `study all` runs a study. Scenes come before options.
+/// The arguments that `sahara study all` passes to a study. Scenes must come before options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Presets {
     pub full: &'static str,
-    /// For `study all --quick`, a run of a few minutes.
+    /// Arguments for `sahara study all --quick`.
     pub quick: &'static str,
 }
 
@@ -86,14 +85,13 @@ impl Study {
         (self.options)().get_positionals().next().is_some()
     }
 
-    /// If `scenes` is not empty, it replaces the scenes in `preset`. A study that accepts no scenes ignores `scenes`.
+    /// A non-empty `scenes` replaces the scenes in `preset`. A study that accepts no scenes ignores `scenes`.
     pub fn preset(&self, preset: &str, scenes: &[OsString]) -> Vec<OsString> {
         let scenes = if self.names_scenes() { scenes } else { &[] };
         let options = preset.split_whitespace().skip_while(|word| !scenes.is_empty() && !word.starts_with('-'));
         scenes.iter().cloned().chain(options.map(OsString::from)).collect()
     }
 
-    /// `sahara report` reads the folder `runs`.
     pub fn command_line(&self) -> String {
         format!("sahara study {} --dir runs", self.name)
     }
@@ -119,7 +117,8 @@ impl Studies {
 
     /// # Panics
     ///
-    /// If the name is taken or reserved, or contains other characters than lower-case letters, digits and hyphens.
+    /// If the name is taken, reserved or empty, or has an invalid character. Valid characters are lower-case ASCII
+    /// letters, digits and hyphens.
     pub fn with(mut self, study: Study) -> Self {
         let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         let name = study.name;

@@ -1,4 +1,4 @@
-//! The measurements that a study plans.
+//! The plan of a study contains the cases to measure.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -11,9 +11,9 @@ use crate::report::words::each_once;
 use crate::request::{SceneRequest, StructureRequest, ViewArgs, WorkloadRequest, named_notes};
 use crate::scene::Scene;
 
-/// The cases are measured in order.
 #[derive(Clone, Debug, Default)]
 pub struct Plan {
+    /// The run measures the cases from first to last.
     pub cases: Vec<Case>,
     /// Notes below the tables.
     pub notes: Vec<String>,
@@ -21,14 +21,13 @@ pub struct Plan {
     pub warnings: Vec<String>,
     /// Files that the study reads. No output may replace these files.
     pub inputs: Vec<PathBuf>,
-    /// Time limit of a scene. An epoch that would probably exceed the limit is not started.
+    /// Time limit for all epochs of a scene. The run skips epochs that would probably exceed the limit.
     pub limit: Option<Duration>,
-    /// Whether the journal is kept in the folder `runs` by default.
     pub keep_journal: bool,
 }
 
 pub struct PlannedScene {
-    /// Epoch 0 of the scene. [`Plan::by_epoch`] sets the study and adds all later epochs.
+    /// Epoch 0 of the scene. [`Plan::by_epoch`] adds all later epochs.
     pub case: Case,
 }
 
@@ -61,7 +60,7 @@ impl PlannedScene {
 }
 
 impl Plan {
-    /// Epoch 0 of all scenes comes first.
+    /// Creates one case per epoch of each scene, sorted by epoch.
     pub fn by_epoch(study: &str, scenes: &[PlannedScene]) -> Self {
         let most = scenes.iter().map(|planned| planned.case.epochs).max().unwrap_or(0);
         let of_epoch = |epoch| {
@@ -71,7 +70,7 @@ impl Plan {
         Self { cases: (0..most).flat_map(of_epoch).collect(), keep_journal: true, ..Self::default() }
     }
 
-    /// Measures scene by scene, so the tables of a scene are ready before the next scene begins.
+    /// Sorts the cases by scene.
     pub fn by_scene(mut self) -> Self {
         let scene = |case: &Case| Case { epoch: 0, ..case.clone() }.key();
         let order = each_once(self.cases.iter().map(scene));

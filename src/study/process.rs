@@ -1,12 +1,11 @@
 //! Measures a case in a separate process.
 //!
-//! Samples from several processes show how the memory layout changes times
+//! Each process has a different memory layout. The memory layout affects the measured speed
 //! ([`interval`](mod@crate::measure::interval)).
 //!
-//! A run or the scheduler of a cluster starts this program with `--case JSON --out FILE`. With `--listen`, the process
-//! writes messages to standard output, each as a marked line of JSON. The process waits for a reply to each stage
-//! message, so the run is idle during the timing. All other lines are output of structures. The run copies these lines
-//! to standard error.
+//! A process with the options `--case JSON --out FILE` measures one case. With `--listen`, the process also writes
+//! messages to standard output. A message is JSON on one line. The process waits for a reply to each stage message.
+//! Structures can also print to standard output. The parent process copies the output of structures to standard error.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader, Write};
@@ -36,11 +35,10 @@ enum Message<'a> {
     Failed { sentence: String, of_one_scene: bool, wrong_answer: bool },
 }
 
-/// The prefix of a message line.
+/// The mark before the JSON of a message.
 const MARK: &str = "\u{1e}case ";
 
-/// `options` are options of this process that the new process receives, such as the instruction level. The threads of
-/// the new process are bound to `cores`.
+/// The threads of the new process are bound to `cores`.
 pub fn measure_apart(
     options: &[OsString],
     case: &Case,
@@ -56,7 +54,7 @@ pub fn measure_apart(
     let cores = cores.map(|cores| cores.iter().map(ToString::to_string).collect::<Vec<_>>().join(","));
     command.args(cores.map(|cores| format!("--{CORES}={cores}")));
     process_group::lead_process_group(&mut command);
-    // Runners write temporary files. This folder is removed even if the process is killed.
+    // Runners write temporary files to `scratch`. `scratch` is removed even if the new process is killed.
     let has_programs = case.structures.iter().any(|own| own.runner.is_some());
     let scratch = if has_programs { tempfile::Builder::new().prefix("sahara-").tempdir().ok() } else { None };
     command.envs(scratch.iter().flat_map(|folder| ["TMPDIR", "TMP", "TEMP"].map(|name| (name, folder.path()))));
@@ -79,10 +77,10 @@ pub fn measure_apart(
                 return Err(StudyError::Reported { sentence, of_one_scene, wrong_answer });
             }
         }
-        // Writing fails if the process has ended. The last message or exit status is then reported.
+        // The write fails if the new process has ended. The exit status is checked after the loop.
         let _ = writeln!(input);
     }
-    // Another thread needs the lock to end the process, so this loop locks only briefly.
+    // A blocking wait would hold the lock. In another thread, `end` needs the lock.
     let status = loop {
         if let Some(status) = locked(&child.0).try_wait().map_err(|cause| failure(cause.to_string()))? {
             break status;
@@ -98,7 +96,7 @@ pub fn measure_apart(
 /// A child process that is killed when the guard is dropped.
 struct Guard(Arc<Mutex<Child>>);
 
-/// The process that was started last.
+/// The most recently started child process.
 static LAST: Mutex<Weak<Mutex<Child>>> = Mutex::new(Weak::new());
 
 static ENDED: AtomicBool = AtomicBool::new(false);
@@ -126,7 +124,7 @@ impl Drop for Guard {
     }
 }
 
-/// Ends the measuring process and every later process. The run then sees a process that ended without a result.
+/// Kills the running child process. Child processes that start later are killed at once.
 pub fn end() {
     ENDED.store(true, Ordering::SeqCst);
     if let Some(child) = locked(&LAST).upgrade() {
@@ -134,8 +132,8 @@ pub fn end() {
     }
 }
 
-/// Returns a message if the file `out` already contains the case, and `None` after a measurement. After an error, the
-/// file is unchanged.
+/// Returns `None` if this call writes the case to `out`. Returns a message if `out` already contains the case. An error
+/// leaves `out` unchanged.
 pub fn measure_into(
     case: &Case,
     out: &Path,
@@ -154,8 +152,7 @@ pub fn measure_into(
     let prepared = Prepared::new(case, registry, None)?;
     let command = case.command.clone();
     let provenance = Provenance { process_per_epoch: true, command, ..Provenance::of(&prepared.threads) };
-    // Nobody reads the logs of all jobs, and an existing file is not measured again. So this is an error, not a
-    // warning.
+    // On an unwatched screen, a warning would be overlooked.
     if let Some(cause) = provenance.too_many_threads().filter(|_| !screen.is_watched()) {
         return Err(StudyError::Case { key: case.key(), cause }.into());
     }
@@ -169,9 +166,9 @@ pub fn measure_into(
     check_same().map(|()| Some("was written by another process in the meantime: its case is kept."))
 }
 
-/// Like [`measure_into`], but reports progress and failure to the listening run. A process that outlives the run would
-/// disturb the next run, so this process ends with the run.
+/// Calls [`measure_into`] and sends progress and failure to the parent process.
 pub fn measure_for_run(case: &Case, out: &Path, registry: &Registry, watch: &BuildWatch) -> io::Result<()> {
+    // A process that outlives its parent process would disturb later measurements.
     process_group::end_with_parent();
     let Err(error) = measure_into(case, out, registry, watch, &mut ListeningRun) else { return Ok(()) };
     let known = error.downcast_ref::<StudyError>();
@@ -189,7 +186,7 @@ impl Screen for ListeningRun {
         let reply =
             say(&Message::Stage(stage.clone())).and_then(|()| io::stdin().lock().read_until(b'\n', &mut vec![]));
         if !matches!(reply, Ok(1..)) {
-            // Without a reply, the run has ended.
+            // A missing reply means that the parent process has ended.
             std::process::exit(1);
         }
     }
@@ -206,7 +203,8 @@ fn say(message: &Message) -> io::Result<()> {
     out.flush()
 }
 
-/// If a build takes too long, the process starts again without the structure. No thread can interrupt a builder.
+/// If a build exceeds the limit, the returned watch restarts this program. The restarted program skips the structure. A
+/// running build cannot be interrupted.
 pub fn build_watch(case: &Case, args: Vec<OsString>) -> BuildWatch {
     let Some(limit) = case.settings.build_limit_s else { return BuildWatch::default() };
     let case = case.clone();

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::report::Table;
 
-/// The current activity of a study, reported between timed regions.
+/// The current activity of a study.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stage<'a> {
     Build(#[serde(borrow)] Cow<'a, str>),
@@ -12,7 +12,7 @@ pub enum Stage<'a> {
     Check(#[serde(borrow)] Cow<'a, str>),
     /// The number of samples taken so far, and the number of all samples.
     Trace(usize, usize),
-    /// The work per ray is being counted. No timing follows.
+    /// The work per ray is being counted.
     Count,
 }
 
@@ -22,7 +22,7 @@ pub trait Screen {
     fn begin(&mut self, _: u64) {}
     fn case(&mut self, _title: &str, _work: u64) {}
     fn stage(&mut self, _: &Stage) {}
-    /// The case is measured or has failed.
+    /// Called at the end of each case, including failed cases.
     fn done(&mut self) {}
     fn is_interrupted(&self) -> bool {
         false

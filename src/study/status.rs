@@ -5,24 +5,25 @@ use serde::{Deserialize, Serialize};
 use crate::report::Failure;
 use crate::request::known_defect;
 
-/// The exit status of a command depends on this result.
+/// Determines the exit status of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     Right,
     Wrong,
-    /// A measurement failed. The reason has been printed.
+    /// A measurement or comparison failed. The command that returns `Failed` prints the reason.
     Failed,
-    /// A structure could not be built or panicked. In a gate, results are missing.
+    /// A structure failed to build, panicked or was skipped. A comparison with a threshold also returns
+    /// `Refused` if the new result lacks a measurement.
     Refused,
     Regression,
-    /// The samples are inconclusive.
+    /// The comparison of an old and a new result is inconclusive.
     Undecided,
     Interrupted,
 }
 
 impl Status {
-    /// Wrong hits of a structure with known defects do not count.
+    /// Wrong hits of a structure with known defects do not cause `Wrong`.
     pub fn of(failures: &[Failure]) -> Self {
         if failures.iter().any(|failure| failure.wrong && known_defect(&failure.structure).is_none()) {
             Self::Wrong
@@ -33,7 +34,7 @@ impl Status {
         }
     }
 
-    /// Wrong takes precedence over failed, and failed over refused.
+    /// `Wrong` takes precedence over `Failed`. `Failed` takes precedence over `Refused`.
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Right, other) => other,

@@ -1,4 +1,4 @@
-//! Tests a run in which scenes fail, and the presets of all studies.
+//! Tests the presets of all studies, and a run with failing scenes.
 
 use clap::Command;
 
@@ -29,7 +29,7 @@ fn plan() -> Plan {
     Plan { cases: cases.map(|(scene, epoch)| case(scene, epoch, &["x"])).collect(), ..Plan::default() }
 }
 
-/// Writes all cases except `without` into the journal, after an edit by `change`.
+/// Writes all cases except `without` into the journal. `change` edits each epoch before the write.
 fn measured(folder: &std::path::Path, without: &[(&str, usize)], change: fn(&Case, &mut Epoch)) {
     let provenance = Provenance { process_per_epoch: false, ..Provenance::of(&crate::measure::Threads::unstarted(1)) };
     let journal = journal::Journal::open(&folder.join("tiny"), provenance.clone(), false, &[]).unwrap();
@@ -64,7 +64,8 @@ fn outcome(folder: &std::path::Path, screen: &mut RecordingScreen) -> RunOutcome
 #[test]
 fn failing_scenes_are_reported_and_left_out_of_means() {
     let folder = tempfile::tempdir().unwrap();
-    // Epoch 1 of c has other hits than epoch 0. Epoch 1 of b cannot be measured, because the scene does not exist.
+    // Epoch 1 of scene c has other hits than epoch 0. The journal lacks epoch 1 of scene b. The scenes have no files,
+    // so the run cannot measure a missing epoch.
     let other = |case: &Case, epoch: &mut Epoch| {
         if (case.scene.name.as_str(), case.epoch) == ("c", 1) {
             epoch.structures[0].rays[0].checksum = 2;
@@ -81,7 +82,6 @@ fn failing_scenes_are_reported_and_left_out_of_means() {
         "{sentences:?}"
     );
     assert_eq!(outcome.status, Status::Wrong, "wrong hits take precedence over failed measurements");
-    // The table of b shows its only epoch. No mean includes b.
     assert_eq!(screen.titles, ["a", "b (1 of 2 epochs)"]);
     let titles: Vec<&str> = outcome.tables.iter().map(|table| table.title.as_str()).collect();
     assert!(titles == ["mean of a"] && outcome.dataset.is_some(), "{titles:?}");

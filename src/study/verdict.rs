@@ -9,12 +9,12 @@ use crate::validate::{Kind, Validation};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Verdict {
     pub rays: u64,
-    /// Rays with a hit that rounding cannot explain.
+    /// Errors that rounding cannot explain.
     pub wrong: u64,
-    /// Rays with a hit that differs only by the rounding of the triangle test.
+    /// Rays with a result that differs from the exact result only by rounding.
     #[serde(default)]
     pub rounded: u64,
-    /// The worst kind of wrong hit.
+    /// The worst kind of error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fault: Option<Kind>,
 }
@@ -61,7 +61,7 @@ impl Verdict {
     }
 }
 
-/// Returns words for the behaviour of the structure and for the cause.
+/// Returns a phrase for the behaviour of the structure and a phrase for the cause.
 fn fault(kind: Kind) -> (&'static str, &'static str) {
     const TREE: &str = "the tree is wrong";
     const EITHER: &str = "the tree or its triangle test is wrong";

@@ -11,49 +11,49 @@ use crate::names::named_enum;
 use crate::triangle::{MollerTrumbore, scalar_hit};
 
 named_enum! {
-    /// A group of adversarial rays. Each stratum exposes different errors, so results of strata are never pooled.
+    /// A group of adversarial rays.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum Stratum {
         /// Random rays towards points in the box of the mesh.
         Random = "random",
         /// Through a vertex.
         Vertices = "vertices",
-        /// Through a point of an edge.
+        /// Through a point on an edge.
         Edges = "edges",
-        /// Axis-parallel directions with zeros of both signs. Origins often share two coordinates with vertices.
+        /// Axis-parallel directions. Each zero is +0.0 or -0.0.
         AxisParallel = "axis-parallel",
-        /// In the plane of a face of the box of the mesh or of a triangle.
+        /// In the plane of a box face. The box bounds the mesh or one triangle.
         FacePlanes = "face-planes",
         /// From a vertex.
         FromVertices = "from-vertices",
-        /// From a point of a triangle.
+        /// From a point on a triangle.
         FromSurface = "from-surface",
-        /// From a point with likely split positions as coordinates.
+        /// From a point with coordinates at which a builder may split.
         FromSplits = "from-splits",
         /// Nearly in the plane of a triangle.
         Grazing = "grazing",
-        /// Along diagonals. One component may be +0.0 or -0.0.
+        /// Along diagonals. One component of the direction may be +0.0 or -0.0.
         Diagonals = "diagonals",
-        /// Two components are nearly zero or denormal.
+        /// Two components of the direction are nearly zero.
         NearlyAxis = "nearly-axis",
         /// Directions with lengths from 1e-30 to 1e30.
         Lengths = "lengths",
-        /// Origins at a distance of 1e3 to 1e8 box sizes.
+        /// Origins at a distance of 1e3 to 1e8 box sizes from a triangle.
         FarOrigins = "far-origins",
-        /// From a point very near a triangle.
+        /// From a point near a triangle.
         NearSurface = "near-surface",
         /// Most intervals begin or end within one ulp of the `t` of a hit.
         Windows = "windows",
-        /// Rays with NaN, infinity, zero directions or empty intervals. No ray may hit.
+        /// Rays with NaN, infinity, a zero direction or an empty interval. Every ray must miss.
         Invalid = "invalid",
-        /// Intervals that end or begin at the float to which the exact `t` of a hit rounds. For half of the rays,
-        /// this float is near the largest float.
+        /// The interval ends or begins at the exact `t` of a hit, rounded to a float. For half of the rays, this `t` is
+        /// near the largest float.
         RoundedEnds = "rounded-ends",
     }
 }
 
 impl Stratum {
-    /// An empty mesh gets rays for a triangle of unit size.
+    /// An empty mesh is replaced by one triangle of unit size.
     pub fn rays(self, mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
         let mut generator = Generator::new(mesh, seed ^ (self as u64) << 32);
         (0..count).map(|_| generator.ray(self)).collect()
@@ -63,7 +63,7 @@ impl Stratum {
 struct Generator<'a> {
     mesh: &'a Mesh,
     bounds: Aabb,
-    /// The longest side of the box, or 1 if the box is a point.
+    /// The longest side of `bounds`, or 1 for a point.
     size: f32,
     sampler: Sampler,
 }
@@ -221,8 +221,8 @@ impl<'a> Generator<'a> {
         let direction = self.sampler.direction();
         let direction = self.axis_of(direction);
         let mut ray = self.through(direction);
-        // A ray with mixed coordinates of several vertices may run along an edge of a box.
         if self.sampler.coin() {
+            // The coordinates of vertices may put the ray on an edge of a box.
             let axis = direction.abs().max_position();
             for other in [(axis + 1) % 3, (axis + 2) % 3] {
                 ray.origin[other] = self.vertex()[other];
@@ -271,7 +271,6 @@ impl<'a> Generator<'a> {
         Ray::new(target - direction * self.sampler.pick(&[0.0, 1.0, 4.0]), direction)
     }
 
-    /// The interval depends on the `t` that Möller-Trumbore computes. Other triangle tests agree within rounding.
     fn window(&mut self) -> Ray {
         let corners = self.corners();
         let ray = self.towards(|own| own.sampler.point_of(corners));
@@ -304,11 +303,10 @@ impl<'a> Generator<'a> {
         ray
     }
 
-    /// Half of the hits are near the largest `t`, because the direction is tiny. A far origin lengthens the direction,
-    /// to avoid denormal components.
     fn rounded_end(&mut self) -> Ray {
         let corners = self.corners();
         let (target, away) = (self.sampler.point_of(corners), self.sampler.pick(&[1.0, 30.0, 1e3]));
+        // After `near_the_largest_t`, a long direction has fewer denormal components than a short direction.
         let back = (self.origin() - target) * away;
         let mut ray = Ray::new(target + back, -back * (0.5 + self.sampler.unit()));
         let (is_far, end) = (self.sampler.coin(), self.sampler.below(3) / 2);
@@ -319,14 +317,14 @@ impl<'a> Generator<'a> {
     }
 }
 
-/// The interval of the first ray ends at the float to which `t` rounds. The interval of the second ray begins at this
-/// float. If `t` is below the float, only the first interval contains `t`.
+/// Let `end` be `t`, rounded to a float. The interval of the first ray ends at `end`. The interval of the second ray
+/// begins at `end`.
 pub fn rounded_ends(ray: &Ray, t: &ExactT) -> [Ray; 2] {
     let end = t.round();
     [ray.until(end), Ray { t_min: end, ..*ray }]
 }
 
-/// Shortens the direction of `ray`. The hit at `t` moves to the largest float, up to the rounding of the direction.
+/// Scales the direction of `ray` to move the hit from `t` to about the largest float.
 pub fn near_the_largest_t(ray: &Ray, t: f64) -> Ray {
     Ray { direction: (ray.direction.as_dvec3() * (t / f64::from(f32::MAX))).as_vec3(), ..*ray }
 }

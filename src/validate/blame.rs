@@ -10,7 +10,7 @@ use crate::exact::{self, ExactT};
 use crate::geometry::{Hit, Mesh, PrimId, Ray};
 use crate::oracle::DepthRule;
 
-/// The verdict on a difference, and the reason in one sentence.
+/// The kind of a difference, and the reason in one sentence.
 pub(super) type Blame = (Kind, String);
 
 pub(super) struct Dispute<'a> {
@@ -39,12 +39,12 @@ impl Dispute<'_> {
         }
     }
 
-    /// `other` is the verdict of `other_test`, and `own` is the triangle test of the structure.
+    /// `own` is the triangle test of the structure. `other` is the result of `other_test`.
     fn own_test(&self, own: ScalarTest, other: Blame) -> Blame {
         let of = |hit: Option<Hit>| hit.and_then(|hit| own(self.ray, self.corners(hit.prim)?));
         let by_the_test = |sentence: &str| (Kind::TriangleTest, format!("{}, but {sentence}", other.1));
         match (other.0, self.found) {
-            // The traversal is right if the test misses the triangle or returns no nearer `t`.
+            // The traversal is right if `own` finds no hit nearer than `found` on the expected triangle.
             (Kind::Lost | Kind::NearerLost, found) => match (of(self.expected), found) {
                 (None, _) => by_the_test("the structure's own triangle test misses it"),
                 (Some(t), Some(f)) if t >= f.t => {
@@ -52,7 +52,7 @@ impl Dispute<'_> {
                 }
                 _ => other,
             },
-            // A wrong hit is the fault of the test if the test returns this hit.
+            // A wrong hit is a triangle-test error if `own` returns this hit.
             (Kind::WrongT | Kind::Invented, Some(f)) => match of(self.found) {
                 Some(t) if DepthRule::COARSE.allows(t.into(), f.t, true) => {
                     by_the_test("the structure's own triangle test gives the same result")
@@ -63,9 +63,9 @@ impl Dispute<'_> {
         }
     }
 
-    /// A structure and a reference with the same test must return equal bits.
+    /// Judges a structure if the reference has the same triangle test.
     fn same_test(&self, test: ScalarTest) -> Blame {
-        // The test must return the found hit at the found primitive.
+        // The test must return `f.t` for the found primitive.
         if let Some(f) = self.found {
             let solid = self.corners(f.prim).filter(|_| !self.mesh.is_degenerate(f.prim.index()));
             let right_t = self.expected.is_some_and(|e| e.t.to_bits() == f.t.to_bits());
@@ -93,8 +93,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// Judges a structure that finds no hit, or a hit behind `expected`. Exact arithmetic decides whether this is an
-    /// error.
+    /// Exact arithmetic judges a missing hit or a hit behind `expected`.
     fn lost(&self, expected: Hit) -> Blame {
         let Some(nearer) = self.true_hit(expected) else {
             let sentence = format!("by exact arithmetic the ray does not hit {:?} in its interval", expected.prim);
@@ -103,7 +102,6 @@ impl Dispute<'_> {
         let sure = exactly(expected.prim, nearer.round());
         let Some(f) = self.found else { return (Kind::Lost, sure) };
         if nearer.compare(f.t).is_some_and(Ordering::is_ge) {
-            // The traversal may skip hits behind the computed `t`.
             let sentence =
                 format!("{sure}, which is not before the computed t of {:?}: the traversal may skip it", f.prim);
             return (Kind::TriangleTest, sentence);
@@ -115,7 +113,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// Two primitives have equal computed `t`. The lower primitive must win if its exact `t` is at most this `t`.
+    /// Judges a hit with the expected `t` on another primitive.
     fn tie(&self, expected: Hit, found: Hit) -> Blame {
         let lower = self.true_hit(expected).filter(|t| t.compare(found.t).is_some_and(Ordering::is_le));
         if lower.is_some() && expected.prim.index() < found.prim.index() {
@@ -130,14 +128,13 @@ impl Dispute<'_> {
         truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))
     }
 
-    /// Structure and reference have different tests, so exact arithmetic judges the structure. A difference that
-    /// rounding explains is an error of the test.
+    /// Judges a structure by exact arithmetic. The reference may have another triangle test.
     fn other_test(&self) -> Option<Blame> {
         let (truth, found) = (self.nearest(), self.found);
         if let Some(blame) = found.and_then(|hit| self.no_hit(hit, truth.as_ref())) {
             return Some(blame);
         }
-        // A lost nearer hit is an error if no rounding hides the hit or moves it behind `limit`.
+        // A lost hit is an error if rounding cannot explain the loss.
         let limit = found.map_or(f64::INFINITY, |hit| hit.t.into());
         let is_found = |t: &ExactT, prim| {
             found.is_some_and(|f| f.prim == prim || DepthRule::STRICT.allows(t.approximate(), f.t, false))
@@ -148,8 +145,7 @@ impl Dispute<'_> {
             if margin.latest() < limit && !margin.may_miss(self.ray) {
                 return Some((kind, exactly(*prim, t.round())));
             }
-            // Rounding may hide the nearest triangle. Every test in single precision hits the triangle that
-            // `nearest_certain_hit` finds. So a farther hit or a miss is wrong.
+            // Every single-precision triangle test must return a hit on the triangle of `nearest_certain_hit`.
             if self.reference.precision == Precision::Single
                 && let Some((t, prim)) = nearest_certain_hit(self.mesh, self.ray, limit)
             {
@@ -159,7 +155,7 @@ impl Dispute<'_> {
         self.rounded(truth)
     }
 
-    /// `None` if a test of this precision may return this hit.
+    /// `None` if a triangle test with the precision of `reference` may return `found`.
     fn no_hit(&self, found: Hit, truth: Option<&(ExactT, PrimId)>) -> Option<Blame> {
         let prim = found.prim;
         let is_there =
@@ -180,7 +176,7 @@ impl Dispute<'_> {
         }
     }
 
-    /// Rounding may explain the difference. `None` if structure and reference are right.
+    /// Judges a difference that rounding may explain. `None` if structure and reference are both right.
     fn rounded(&self, truth: Option<(ExactT, PrimId)>) -> Option<Blame> {
         let is_right = |hit: Option<Hit>| match (&truth, hit) {
             (None, None) => true,

@@ -13,7 +13,7 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::oracle::Oracle;
 
-/// Rays per batch. A fixed number makes the result independent of the number of threads.
+/// Rays per batch. The fixed size makes the result independent of the number of threads.
 pub(super) const BATCH: usize = 256;
 
 /// Rays over a mesh, and the hits of a reference for these rays.
@@ -72,11 +72,11 @@ impl ExpectedHits<'_> {
 
 /// Compares `subject` with `reference` on every ray.
 ///
-/// The closest hit is compared with the hit of the reference. The any-hit result must agree with the closest hit. A
-/// ray must have the same hits on its own and in a batch.
+/// The closest hit is compared with the hit of the reference. The any-hit result must agree with the closest hit of
+/// `subject`. A ray must have the same hits on its own and in a batch.
 ///
-/// The two structures must be built over `mesh`. Rays that `subject` declines are left out and counted. A panic of
-/// `subject` ends its batch. Only [`validate_watched`](super::validate_watched) stops endless loops.
+/// `subject` and `reference` must be built over `mesh`. Rays that `subject` declines are only counted. A panic of
+/// `subject` ends the current batch. Use [`validate_watched`](super::validate_watched) if `subject` may loop endlessly.
 pub fn validate(subject: &dyn DynAccel, reference: &Reference, mesh: &Arc<Mesh>, rays: &[Ray]) -> Validation {
     validate_known(subject, &ExpectedHits { reference, mesh, rays, hits: &reference.closest_hits(rays) })
 }
@@ -119,20 +119,20 @@ pub fn validate_hits(expected: &ExpectedHits, found: &[Option<Hit>]) -> Validati
     Validation::of_batches(0, batches)
 }
 
-/// The indices of the rays on which `found` differs from the expected hits, with the kinds of the differences.
+/// Returns the ray index and the kind of each difference between `found` and the expected hits.
 ///
-/// If structure and reference have different triangle tests, differences that `DepthRule::STRICT` allows are omitted.
+/// If structure and reference have different triangle tests, a `t` that
+/// [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) allows is no difference.
 pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize, Kind)> {
     let differs = |index: usize| Some((index, expected.dispute(index, found[index]).blame()?.0));
     (0..expected.rays.len()).into_par_iter().filter_map(differs).collect()
 }
 
-/// Compares the any-hit results `found` with the closest hits of the reference. The exact oracle judges the
+/// Compares the any-hit results `found` with the closest hits of the reference. Exact arithmetic judges the
 /// differences.
 ///
-/// If structure and reference share the triangle test, a hit that the reference lacks is `Invented`. This holds even
-/// if the oracle has a hit there. If rounding may explain a result, `subject` also traces the ray with the closest-hit
-/// query. A triangle test rounds equally in the two queries, so the queries must agree.
+/// If rounding may explain a difference, `subject` also traces the ray with the closest-hit query. The results of the
+/// two queries must agree.
 ///
 /// # Panics
 /// If there is not one result per ray.
@@ -179,7 +179,7 @@ pub fn validate_any_hits(expected: &ExpectedHits, found: &[bool], subject: Optio
 }
 
 pub(super) fn validate_batch(subject: &dyn DynAccel, batch: &ExpectedHits, clock: &QueryClock) -> Validation {
-    // First trace each ray on its own. The ray of a panic or hang is then known.
+    // Tracing each ray on its own identifies the ray that causes a panic or hang.
     let mut single = Vec::with_capacity(batch.rays.len());
     for (index, ray) in batch.rays.iter().enumerate() {
         match clock.run(Call::Ray(index), || trace_single(subject, ray)) {
@@ -221,7 +221,7 @@ pub(super) fn validate_batch(subject: &dyn DynAccel, batch: &ExpectedHits, clock
     sums
 }
 
-/// An initial value that no structure returns. An unwritten slot is then a wrong hit.
+/// An initial value that no structure returns.
 fn unwritten() -> Option<Hit> {
     Some(Hit::new(f32::NEG_INFINITY, u32::MAX - 1))
 }
@@ -229,7 +229,7 @@ fn unwritten() -> Option<Hit> {
 fn trace_single(subject: &dyn DynAccel, ray: &Ray) -> (Option<Hit>, bool) {
     let mut found = [unwritten()];
     subject.closest_hits(&[*ray], &mut found);
-    // Start with the opposite of the closest hit. An unwritten slot then contradicts this hit.
+    // The initial value of `any` contradicts the closest hit, to detect an unwritten result.
     let mut any = [found[0].is_none()];
     subject.any_hits(&[*ray], &mut any);
     (found[0], any[0])

@@ -36,7 +36,7 @@ pub fn degenerate_meshes() -> Vec<(String, Arc<Mesh>)> {
 
 const FAR: Vec3 = Vec3::new(148_376.0, 1234.0, -223_423.0);
 
-/// A mesh that needs a deep traversal stack, because a ray can cross the boxes of all sheets.
+/// A ray can cross the boxes of all sheets.
 pub fn stacked_sheets() -> Vec<(String, Arc<Mesh>)> {
     vec![("8192 stacked sheets".into(), sheets(8192))]
 }
@@ -88,7 +88,7 @@ pub(crate) fn half_without_area(n: usize) -> Arc<Mesh> {
     }))
 }
 
-/// Long thin triangles through one point. No partition separates their boxes.
+/// Long thin triangles through the origin.
 pub(crate) fn needles(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(6);
     mesh((0..n).map(|_| {
@@ -112,8 +112,7 @@ pub(crate) fn octahedron() -> impl Iterator<Item = [Vec3; 3]> {
     })
 }
 
-/// Sizes and x coordinates grow by a factor of 1.3 per triangle. A split in the middle of a box separates few
-/// triangles.
+/// Sizes and x coordinates grow by a factor of 1.3 per triangle.
 pub(crate) fn exponential(n: usize) -> Arc<Mesh> {
     let mut at = 1e-16_f32;
     mesh((0..n).map(|_| {
@@ -143,11 +142,11 @@ pub(crate) fn box_grid(n: usize) -> Arc<Mesh> {
     mesh(triangles)
 }
 
-/// Triangles with the same centroid. No plane between centroids separates them.
+/// Triangles with the same centroid.
 pub(crate) fn same_centroid(n: usize) -> Arc<Mesh> {
     let mut sampler = Sampler::new(7);
     mesh((0..n).map(|_| {
-        // Multiples of 1/1024 add without rounding, so the sum of the corners is exactly zero.
+        // Small multiples of 1/1024 add without rounding, so the sum of the corners is exactly zero.
         let [a, b] = [0; 2].map(|_| (sampler.cube() * 1024.0).round() / 1024.0);
         [a, b, -a - b]
     }))
@@ -158,7 +157,7 @@ pub(crate) fn huge_and_small() -> Arc<Mesh> {
     mesh(soup_triangles(200, 8).chain([huge]))
 }
 
-/// A closed unit sphere. Neighbouring triangles have the same corners, bit for bit.
+/// A closed unit sphere. Neighbouring triangles share corners bit for bit.
 fn sphere(levels: usize) -> Arc<Mesh> {
     let mut triangles: Vec<[Vec3; 3]> = octahedron().collect();
     for _ in 0..levels {
@@ -189,7 +188,7 @@ mod tests {
                 let truth =
                     oracle.nearest(&Ray::new(Vec3::new(x, y, 0.25), Vec3::new(zero, zero, -0.5))).expect("closed");
                 assert_eq!(truth.rounded(), 2.5);
-                // Inside the bottom, a vertex of the grid belongs to six triangles, and an edge to two.
+                // An inner vertex of the bottom face belongs to six triangles. An inner edge belongs to two triangles.
                 let through = |c: f32| (c * 2.0).fract() == 0.0;
                 let inside = x.abs() < 1.0 && y.abs() < 1.0;
                 match (through(x), through(y)) {

@@ -4,23 +4,23 @@ use crate::geometry::Hit;
 use crate::measure::beta_quantile;
 use crate::oracle::{DepthRule, Outcome, Truth, outcome, ulp};
 
-/// Sums over the rays of a comparison.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct ErrorCounts {
     pub rays: u64,
-    /// Rays with an exact hit.
+    /// Rays that hit the mesh in exact arithmetic.
     pub hits: u64,
     pub missed: u64,
     pub false_hits: u64,
     /// Hits at a depth that the `DepthRule` of the comparison rejects.
     pub wrong_depth: u64,
-    /// Hits on a primitive that is not among the exactly nearest ones. Their depth may be right or wrong.
+    /// Hits at any depth on a primitive that is not nearest in exact arithmetic.
     pub wrong_primitive: u64,
-    /// Errors of `t`, over the hits on an exactly nearest primitive. `None` if no hit is on such a primitive.
+    /// Errors of `t` for the hits on a primitive that is nearest in exact arithmetic. `None` without such a hit.
     pub ulps: Option<Ulps>,
 }
 
-/// Errors of `t` in units in the last place of the exact `t` as an `f32`. A correctly rounded `t` is at most 0.5 off.
+/// Errors of `t`. The unit is the distance of neighbouring `f32` numbers at the exact `t`. A correctly rounded `t` has
+/// an error of at most 0.5.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Ulps {
     #[serde(deserialize_with = "infinite_if_null")]
@@ -31,7 +31,7 @@ pub struct Ulps {
     pub max: f64,
 }
 
-/// Reads null as infinity, because JSON has no infinite numbers and stores them as null.
+/// Reads null as infinity, because `serde_json` writes infinity as null.
 fn infinite_if_null<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(<Option<f64> as serde::Deserialize>::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
 }
@@ -68,10 +68,10 @@ impl ErrorCounts {
 /// The maximum probability that the bound is below the true error rate.
 const LEVEL: f64 = 0.05;
 
-/// Counts the errors of the hits `answers` by comparison with the exact hits `truths`.
+/// Compares the hits `answers` with the exact hits `truths`.
 ///
 /// # Panics
-/// If the numbers of hits and truths differ.
+/// If `truths` and `answers` differ in length.
 pub fn count_errors(truths: &[Option<Truth>], answers: &[Option<Hit>], rule: DepthRule) -> ErrorCounts {
     assert_eq!(truths.len(), answers.len(), "one hit per ray");
     let mut counts = ErrorCounts { rays: truths.len() as u64, ..ErrorCounts::default() };
@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(bound(0, 0), None);
         for n in [100_u64, 1_000_000, 1_000_000_000] {
             let bound = bound(0, n).unwrap();
-            // If the true error rate is `bound`, 5 % of the runs have no error.
+            // If the error rate is `bound`, the probability of no error in `n` rays is 5 %.
             assert!((libm::exp(n as f64 * libm::log1p(-bound)) - 0.05).abs() < 1e-9, "{n}: {bound}");
             assert!((bound * n as f64 - 2.9957).abs() < 0.05, "{n}: {bound}");
         }

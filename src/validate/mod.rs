@@ -1,11 +1,8 @@
-//! Compares a structure with a reference, hit for hit, and finds the cause of each difference.
+//! Compares the hits of a structure with the hits of a reference.
 //!
-//! A *structure error* is a hit that the traversal lost or invented. The result then differs from brute force with the
-//! same triangle test. A *triangle-test error* is a wrong hit or miss that the rounding of the triangle test causes. An
-//! *answer error* is a wrong hit that rounding in single precision cannot explain. Answer errors occur only if
-//! structure and reference have different triangle tests.
-//!
-//! A traversal may return or cull a hit that only a rounded triangle test reports.
+//! A *structure error* is a hit that the traversal of the structure lost or invented. A *triangle-test error* is a
+//! wrong result, caused by rounding in the triangle test. If the reference has another triangle test than the
+//! structure, a wrong hit is an *answer error*. Rounding in single precision cannot explain an answer error.
 
 pub mod adversarial;
 mod blame;

@@ -1,4 +1,4 @@
-//! Records the running query of a thread and its start time, for other threads to read.
+//! Records the query that a thread runs, and the start time of the query.
 
 use std::any::Any;
 use std::sync::Mutex;
@@ -14,7 +14,7 @@ pub(super) fn message(payload: &(dyn Any + Send)) -> String {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Call {
-    /// The index of a ray that is traced on its own.
+    /// A query of one ray. The number is the index of the ray.
     Ray(usize),
     Batch,
 }

@@ -23,8 +23,7 @@ use crate::triangle::{
 /// Returns `t` if the ray hits the triangle in the interval of the ray.
 pub type ScalarTest = fn(&Ray, [Vec3; 3]) -> Option<f32>;
 
-/// A triangle test for which [`Reference::of_test`] returns brute force with the same test. The registry offers the
-/// structures of this crate only over these tests.
+/// Marks a triangle test that [`Reference::of_test`] can use for brute force.
 pub(crate) trait HasReference: TriangleTest {}
 
 type OfMesh = fn(&Arc<Mesh>) -> Result<Reference, BuildError>;
@@ -52,27 +51,25 @@ references!(
     ParryTest,
 );
 
-/// Rays per task of the thread pool. The number is small because brute force takes milliseconds per ray.
+/// Rays per task of the thread pool.
 const BATCH: usize = 32;
 
-/// A reference structure, and the rules for the comparison of a tested structure.
+/// A reference structure, with the rules for comparisons.
 pub struct Reference {
     /// The structure whose hits are expected.
     pub accel: Box<dyn DynAccel>,
-    /// The triangle test, if the tested structure and the reference have the same one. Hits must then have equal bits.
-    /// `None` if the triangle tests differ, or if the reference may have lost hits.
+    /// The common triangle test of the reference and the tested structure. `None` if the triangle tests differ, or if
+    /// the reference may have lost hits.
     pub test: Option<ScalarTest>,
-    /// The precision of the tested structure's triangle test, used only if `test` is `None`. Differences that rounding
-    /// in this precision explains are not errors of the structure.
+    /// The assumed precision of the triangle test of the tested structure. Used only if `test` is `None`.
     pub precision: Precision,
-    /// The triangle test of the tested structure, if it is too slow for brute force. This test runs only on the
-    /// triangles of differing hits.
+    /// The triangle test of the tested structure, for the triangles of differing hits. `None` unless brute force with
+    /// this test is too slow.
     pub disputed: Option<ScalarTest>,
 }
 
 impl Reference {
-    /// Brute force with the triangle test named `test` ([`TRIANGLE_TEST`](crate::accel::Accel::TRIANGLE_TEST)). The
-    /// reference uses `exact` if this crate lacks the test, or if brute force with the test is too slow.
+    /// Brute force with the triangle test named `test`. The test `exact` replaces an unknown or slow test.
     ///
     /// # Errors
     /// If the reference cannot be built over the mesh.
@@ -99,7 +96,7 @@ impl Reference {
 
     #[cfg(feature = "peer-embree")]
     fn in_disputes(disputed: ScalarTest, mesh: &Arc<Mesh>) -> Result<Self, BuildError> {
-        // The test itself judges the triangles of differing hits, so no bound on its rounding is needed.
+        // No rounding bound is needed, because the test `disputed` judges differing hits.
         let precision = Precision::Exact;
         Ok(Self { test: None, precision, disputed: Some(disputed), ..Self::brute_force::<Exact>(mesh)? })
     }
@@ -114,8 +111,8 @@ impl Reference {
         self.test.is_some() || self.disputed.is_some()
     }
 
-    /// Uses the structure `accel` as a reference. `accel` may have lost hits, so exact arithmetic judges the
-    /// differences. `test` is the name of the triangle test of the tested structure.
+    /// Uses the structure `accel` as the reference. `test` is the name of the triangle test of the tested structure.
+    /// Exact arithmetic judges the differences.
     pub fn structure(accel: Box<dyn DynAccel>, test: &str) -> Self {
         let precision = if test == Exact::NAME { Precision::Exact } else { Precision::Single };
         Self { accel, test: None, precision, disputed: None }

@@ -1,4 +1,4 @@
-//! Compares a runner, an external program, with the reference.
+//! Compares the hits of an external program with the hits of the reference.
 
 use super::compare::same;
 use super::{ExpectedHits, Kind, Validation, validate_hits};
@@ -6,10 +6,10 @@ use crate::accel::{BuildError, DynAccel};
 use crate::geometry::Ray;
 use crate::measure::spread;
 
-/// The maximum number of rays that are traced again, in another batch.
+/// The maximum number of rays whose closest-hit query is repeated.
 const AGAIN: usize = 256;
 
-/// Like [`validate_known`](super::validate_known), but with few calls, because each call of a runner takes long.
+/// Like [`validate_known`](super::validate_known), but sends at most three batches of rays to `subject`.
 ///
 /// # Errors
 /// If the program of the structure has failed.
@@ -37,10 +37,10 @@ pub fn validate_remote(subject: &dyn DynAccel, expected: &ExpectedHits) -> Resul
     Ok(sums)
 }
 
-/// Checks that the program of a runner has replied to all requests. Other structures always pass.
+/// Checks that the external program of `subject` has not failed. A structure without an external program passes.
 ///
 /// # Errors
-/// If the program has failed. Its hits then have no meaning.
+/// If the program has failed. The hits of `subject` are then meaningless.
 pub fn has_replied(subject: &dyn DynAccel) -> Result<(), BuildError> {
     let failure = subject.remote().and_then(|remote| remote.failure());
     failure.map_or(Ok(()), |why| Err(BuildError::Remote(why)))

@@ -1,47 +1,46 @@
-//! Bounds the rounding of a triangle test in single precision.
-//!
-//! A hit of an unknown triangle test is wrong if this bound does not explain the hit.
+//! Bounds the rounding errors of a triangle test in single precision.
 
 use glam::{DVec3, Vec3};
 
 use crate::geometry::{Mesh, PrimId, Ray};
 
-/// The largest relative error of one operation in single precision.
+/// The maximum relative rounding error of one operation in single precision.
 const ROUNDOFF: f64 = 1.0 / (1_u64 << 24) as f64;
 
-/// The maximum number of rounding errors that add up in a triangle test. The number covers tests that store corners,
-/// planes or transformations.
+/// The maximum number of rounding errors that add up in one triangle test.
 const OPERATIONS: f64 = 32.0;
 
-/// Products of at least `LARGEST` may overflow in single precision. Determinants below `SMALLEST` may underflow or have
-/// no finite reciprocal.
+/// Intermediate results above this limit may overflow in single precision.
 const LARGEST: f64 = (1_u128 << 125) as f64;
+
+/// Intermediate results below this limit may underflow in single precision.
 const SMALLEST: f64 = 1.0 / (1_u128 << 102) as f64;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
-    /// Hits are exact, and `t` is the nearest `f32`.
+    /// Hits are exact. `t` is rounded to the nearest `f32`.
     Exact,
-    /// The test computes with at least 24 bits, from differences of corners and origin or from stored planes.
+    /// The test computes with a precision of at least 24 bits.
     Single,
 }
 
-/// The intersection of a ray with the plane of a triangle, and the maximum error of a test there.
+/// The intersection of a ray and the plane of a triangle, with error bounds.
 ///
-/// Let A be the largest distance of a corner or the ray origin from zero. Let L be the longest edge, D the length of
-/// the direction, and r = `OPERATIONS` * `ROUNDOFF`. A barycentric weight is off by at most r A L D / |det|. `t` is off
-/// by at most r A L L / |det| + r |t|.
+/// A is the largest distance of the corners and the ray origin from (0, 0, 0). L is the length of the longest edge. D
+/// is the length of the direction. r is `OPERATIONS` * `ROUNDOFF`. det is the dot product of the direction and the
+/// cross product of two edges. The error of a barycentric weight is at most r A L D / |det|. The error of `t` is at
+/// most r A L L / |det| + r |t|.
 ///
 /// # References
 /// Higham: Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002 (running error of inner products).
 pub struct Margin {
-    /// The smallest of the three barycentric weights; negative outside the triangle.
+    /// The smallest of the three barycentric weights. Negative outside the triangle.
     weight: f64,
     weight_error: f64,
-    /// The parameter at which the ray meets the plane.
+    /// The ray parameter at the plane of the triangle.
     t: f64,
     t_error: f64,
-    /// Whether all intermediate results are normal numbers.
+    /// Whether no intermediate result can overflow or underflow in single precision.
     is_in_range: bool,
     precision: Precision,
 }
@@ -72,19 +71,19 @@ impl Margin {
         }
     }
 
-    /// Whether a test of this precision may miss the triangle although the ray hits it.
+    /// Whether rounding may turn a hit into a miss.
     pub fn may_miss(&self, ray: &Ray) -> bool {
         let (t_min, _) = ray.interval();
-        // The weights add up to 1, so the smallest is at most 1/3. A larger `weight` is a rounding error.
+        // The smallest of three weights with sum 1 is at most 1/3. A larger `weight` is a rounding error.
         let is_inside = self.weight.min(1.0 / 3.0) > self.weight_error
             && self.t - self.t_error > f64::from(t_min)
             && self.t + self.t_error < ray.end();
         self.precision == Precision::Single && !(is_inside && self.is_in_range)
     }
 
-    /// Whether a test of this precision may return a hit at `t` although the ray misses the triangle.
+    /// Whether rounding may turn a miss into a hit at `t`.
     pub fn may_hit(&self, ray: &Ray, t: f32) -> bool {
-        // A test may compute any weight and depth for rays along the plane and for triangles without area.
+        // If the determinant is nearly zero, a test may compute any weight and any `t`.
         let is_along = self.weight_error.is_nan() || self.weight_error >= 1.0;
         let is_near = self.weight >= -self.weight_error && self.may_round_to(t);
         let (t_min, t_max) = ray.interval();
@@ -92,19 +91,19 @@ impl Margin {
         self.precision == Precision::Single && is_within && (is_along || is_near || !self.is_in_range)
     }
 
-    /// Whether a test of this precision may compute `t` as the parameter at the plane.
+    /// Whether rounding may change the ray parameter at the plane to `t`.
     pub fn may_round_to(&self, t: f32) -> bool {
         let is_near = (f64::from(t) - self.t).abs() <= self.t_error || self.t_error.is_nan();
         self.precision == Precision::Single && (is_near || !self.is_in_range)
     }
 
-    /// The largest parameter at the plane that a test of this precision may compute.
+    /// The largest ray parameter that a test may compute at the plane.
     pub fn latest(&self) -> f64 {
         self.t + if self.precision == Precision::Single { self.t_error } else { 0.0 }
     }
 }
 
-/// The nearest triangle that every test in single precision hits before `limit`, and its `t`.
+/// The nearest triangle that a test in single precision must hit before `limit`, with the `t` of the hit.
 pub fn nearest_certain_hit(mesh: &Mesh, ray: &Ray, limit: f64) -> Option<(f64, PrimId)> {
     let margins = mesh.solid().map(|index| (Margin::new(ray, mesh.corners(index), Precision::Single), index));
     let sure = margins.filter(|(margin, _)| margin.latest() < limit && !margin.may_miss(ray));
@@ -112,7 +111,7 @@ pub fn nearest_certain_hit(mesh: &Mesh, ray: &Ray, limit: f64) -> Option<(f64, P
     nearest.map(|(margin, index)| (margin.t, PrimId::new(index)))
 }
 
-/// Whether a test in single precision may return a hit on any triangle.
+/// Whether a test in single precision may hit at least one triangle of `mesh`.
 pub fn may_be_hit(mesh: &Mesh, ray: &Ray) -> bool {
     (0..mesh.len() as u32).any(|index| {
         let margin = Margin::new(ray, mesh.corners(index), Precision::Single);
@@ -132,7 +131,7 @@ mod tests {
     use crate::triangle::{BaldwinWeber, Exact, MollerTrumbore, TriangleTest, Watertight};
     use crate::validate::{Reference, Stratum, degenerate_meshes, validate};
 
-    /// The reference does not know the triangle test, so the bound must explain all differences.
+    /// Asserts that rounding explains all wrong results of the test `T`.
     fn is_excused<T: TriangleTest>(count: usize) {
         for (name, mesh) in degenerate_meshes() {
             let subject = BruteForce::<T>::build(&mesh, &Default::default()).unwrap();
@@ -146,7 +145,7 @@ mod tests {
         }
     }
 
-    /// Plücker's test is left out, because its error grows with the square of the distance.
+    /// Plücker's test is missing here, because its error may exceed the bounds of `Margin`.
     #[test]
     fn no_test_by_edges_or_planes_rounds_beyond_the_bound() {
         is_excused::<MollerTrumbore>(40);
@@ -164,10 +163,13 @@ mod tests {
         let down = |x: f32, y: f32| Ray::new(Vec3::new(x, y, 2.0), Vec3::NEG_Z);
         for (scale, ray, is_certain) in [
             (1.0, down(0.75, 0.25), true),
-            // The hit is on or next to an edge, or at the end of the interval, or products underflow.
+            // The hit is on an edge.
             (1.0, down(0.5, 0.5), false),
+            // The hit is close to an edge.
             (1.0, down(0.5, 0.5000001), false),
+            // The hit is at the end of the interval.
             (1.0, down(0.75, 0.25).until(2.0), false),
+            // Products underflow.
             (1e-20, down(0.75e-20, 0.25e-20), false),
         ] {
             assert_eq!(nearest_certain_hit(&square(scale), &ray, f64::INFINITY).is_some(), is_certain, "{scale} {ray}");

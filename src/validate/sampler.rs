@@ -1,10 +1,10 @@
-//! Seeded random numbers, points and choices, which are the same on every machine.
+//! Seeded random values that are identical on every machine.
 
 use glam::Vec3;
 use rand_core::{RngCore, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// A seeded source of random values. Its code must call no function whose result varies by platform.
+/// A seeded source of random values. The methods must not call functions with platform-dependent results.
 pub struct Sampler(Pcg32);
 
 impl Sampler {
@@ -12,7 +12,7 @@ impl Sampler {
         Self(Pcg32::seed_from_u64(seed))
     }
 
-    /// A number in [0, 1), a multiple of 2^-24.
+    /// A multiple of 2^-24 in [0, 1).
     pub fn unit(&mut self) -> f32 {
         (self.0.next_u32() >> 8) as f32 / (1 << 24) as f32
     }
@@ -22,7 +22,7 @@ impl Sampler {
         self.unit() * 2.0 - 1.0
     }
 
-    /// An integer below `n`; 0 if `n` is 0.
+    /// An integer in [0, `n`). 0 if `n` is 0.
     pub fn below(&mut self, n: usize) -> usize {
         ((u64::from(self.0.next_u32()) * n as u64) >> 32) as usize
     }
@@ -31,7 +31,7 @@ impl Sampler {
         self.0.next_u32() & 1 == 1
     }
 
-    /// One of `items`, which must not be empty.
+    /// A random item. `items` must not be empty.
     pub fn pick<T: Copy>(&mut self, items: &[T]) -> T {
         items[self.below(items.len())]
     }
@@ -50,7 +50,7 @@ impl Sampler {
         Vec3::new(self.signed(), self.signed(), self.signed())
     }
 
-    /// A unit vector, uniform on the sphere up to rounding.
+    /// A uniformly distributed vector of length 1, up to rounding.
     pub fn direction(&mut self) -> Vec3 {
         loop {
             let p = self.cube();
@@ -66,7 +66,7 @@ impl Sampler {
         a * u + b * v + c * w
     }
 
-    /// Three weights of at least 0. Their sum is 1 up to rounding.
+    /// Three weights of at least -2^-24. The sum of the weights is 1 up to rounding.
     pub fn barycentric(&mut self) -> [f32; 3] {
         let (mut u, mut v) = (self.unit(), self.unit());
         if u + v > 1.0 {

@@ -7,49 +7,50 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::{Hit, Ray};
 use crate::names::named_enum;
 
-/// Sums over the rays of a comparison.
+/// The counts and the worst rays of a comparison.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Validation {
-    /// Compared rays, including all rays of a batch that a panic or an endless loop ended.
+    /// Compared rays, including all rays of batches with a panic or a hang.
     pub rays: u64,
-    /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)). Their hits are not checked.
+    /// Rays that the structure declines ([`Capabilities`](crate::accel::Capabilities)). The hits of these rays are
+    /// not checked.
     pub declined: u64,
-    /// Rays with a hit of the reference.
+    /// Rays for which the reference returns a hit.
     pub hits: u64,
-    /// Rays on which structure and reference return different hits. Ties do not count. With the same triangle test,
-    /// every bit of `t` counts. Otherwise a `t` that [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) allows
-    /// does not count.
+    /// Rays on which structure and reference return different hits, except ties.
+    ///
+    /// If the triangle tests differ, [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) defines which differences
+    /// of `t` are ignored.
     pub differing: u64,
-    /// Hits that the structure lost or invented. Zero in a correct structure.
+    /// Errors of the structure, not of its triangle test. Zero for a correct structure.
     pub structure_errors: u64,
-    /// Differences that rounding of the structure's triangle test causes.
+    /// Differences that rounding of the structure's triangle test may explain.
     pub test_errors: u64,
-    /// Differences in which the structure is right and the reference wrong. Zero if the triangle test is the same.
+    /// Differences that are errors of the reference. Zero if structure and reference share the triangle test.
     pub reference_errors: u64,
-    /// Wrong hits that rounding of the structure's triangle test cannot explain. Zero if the reference knows this test,
-    /// because these hits are then structure errors.
+    /// Wrong results that rounding cannot explain. Zero if structure and reference share the triangle test.
     pub answer_errors: u64,
-    /// Depths that `DepthRule::STRICT` rejects, but that rounding in single precision explains. Zero if structure and
+    /// Errors of `t` that `DepthRule::STRICT` does not allow. Rounding may explain these errors. Zero if structure and
     /// reference share the triangle test.
     pub depth_errors: u64,
-    /// Rays on which any hit and closest hit contradict each other.
+    /// Rays whose any-hit and closest-hit results contradict each other.
     pub any_hit_errors: u64,
-    /// Rays whose hit differs between a batch and a single ray. These rays get no further check.
+    /// Rays that have different results in a batch and on their own.
     pub unrepeatable: u64,
-    /// Batches that a panic of the structure ended.
+    /// Batches in which the structure panicked.
     pub panics: u64,
-    /// Batches that took too long. The first one ends the comparison.
+    /// Batches in which a query took too long. A hang ends the comparison.
     pub hangs: u64,
-    /// Rays on which the structure returns another primitive that is hit at the `t` of the reference. Not an error.
+    /// Rays on which structure and reference return different primitives at the same `t`. Not errors.
     pub ties: u64,
-    /// Ties in which the reference's primitive has the lower number. In exact arithmetic, this primitive is hit at or
-    /// before the returned `t`. An error only if the structure promises the lowest number.
+    /// Ties in which the reference's primitive has the lower number. These ties are errors only if the structure
+    /// promises the lowest primitive number.
     pub higher_ids: u64,
     /// At most [`Validation::WORST`] rays, worst first.
     pub worst: Vec<WorstRay>,
 }
 
-/// A ray on which structure and reference differ, the structure contradicts itself, or a query panics or hangs.
+/// A ray with a difference, a panic or a hang.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorstRay {
     /// Index among the compared rays.
@@ -58,12 +59,12 @@ pub struct WorstRay {
     pub expected: Option<Hit>,
     pub found: Option<Hit>,
     pub kind: Kind,
-    /// The reason, in one sentence.
+    /// The reason for `kind`, in one sentence.
     pub verdict: String,
 }
 
 named_enum! {
-    /// The kind of a difference. The kinds are ordered from the worst on, and the kinds before `Depth` are errors.
+    /// Kinds of differences, from the worst to the mildest. Kinds before `Depth` are errors.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case")]
     pub enum Kind {
@@ -72,27 +73,27 @@ named_enum! {
         Panicked = "panics",
         /// The structure returns a miss although the ray has an exact hit.
         Lost = "lost",
-        /// The structure misses the nearest exact hit, and returns a farther hit or one that does not exist.
+        /// The structure misses the nearest exact hit, but returns another hit.
         NearerLost = "nearer-lost",
-        /// The structure returns a hit that its triangle test does not find. If the test is unknown, exact arithmetic
-        /// decides.
+        /// The structure returns a hit that its triangle test does not find. Exact arithmetic replaces an unknown
+        /// triangle test.
         Invented = "invented",
-        /// The triangle test hits the returned primitive, but at another `t`.
+        /// The ray hits the returned primitive, but at another `t`.
         WrongT = "wrong-t",
-        /// The returned `t` is right, but the returned primitive is not hit there.
+        /// At the returned `t`, the ray hits another primitive, not the returned one.
         WrongPrimitive = "wrong-primitive",
         AnyHitDisagrees = "any-hit-disagrees",
         Unrepeatable = "unrepeatable",
-        /// The primitive is right. `t` is wrong by more than `DepthRule::STRICT` allows, but rounding explains this.
+        /// The error of `t` is larger than `DepthRule::STRICT` allows. Rounding may explain this error.
         Depth = "depth",
         /// An error of the triangle test, not of the structure.
         TriangleTest = "triangle-test",
-        /// The structure is right, and the reference is wrong.
+        /// An error of the reference, not of the structure.
         Reference = "reference",
-        /// `t` is right, but a primitive with a lower number is hit there too. Wrong only if the lowest number is
-        /// promised.
+        /// A tie in which the reference's primitive has the lower number. An error only if the structure promises the
+        /// lowest primitive number.
         HigherId = "higher-id",
-        /// `t` is right, and the returned primitive is hit there too. Not an error.
+        /// Structure and reference return different primitives at the same `t`. Not an error.
         Tie = "tie",
     }
 }
@@ -104,7 +105,7 @@ impl Kind {
 }
 
 impl Validation {
-    /// The maximum number of stored rays.
+    /// The maximum number of rays in `worst`.
     pub const WORST: usize = 10;
 
     /// All errors that rounding does not explain. 0 for a correct structure.
@@ -116,7 +117,7 @@ impl Validation {
         self.worst.first().filter(|w| w.kind.is_error())
     }
 
-    /// `batches` must be in the order of their rays. `declined` counts the rays that no batch contains.
+    /// `batches` must be sorted by ray index. `declined` is the number of declined rays outside the batches.
     pub(super) fn of_batches(declined: usize, batches: impl IntoIterator<Item = Self>) -> Self {
         let mut whole = Self { declined: declined as u64, ..Self::default() };
         for mut batch in batches {

@@ -17,7 +17,7 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::panics::caught;
 
-/// Default time limit of a build, of a query of one ray, or of a query of a batch.
+/// Default time limit of a build or a query.
 pub const LIMIT: Duration = Duration::from_secs(120);
 
 const PAUSE: Duration = Duration::from_millis(20);
@@ -33,12 +33,12 @@ pub enum WatchError {
 /// Runs `work` on a separate thread and waits for at most `limit`.
 ///
 /// # Errors
-/// If the work panics, or takes longer than `limit`. After the limit, the thread of the work continues.
+/// If `work` panics or takes longer than `limit`.
 pub fn watched<R: Send + 'static>(limit: Duration, work: impl FnOnce() -> R + Send + 'static) -> Result<R, WatchError> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
         let result = caught(work).map_err(|payload| message(payload.as_ref()));
-        // Ignore the error: after the limit there is no receiver.
+        // After the limit, the receiver no longer exists.
         let _ = sender.send(result);
     });
     match receiver.recv_timeout(limit) {
@@ -69,10 +69,10 @@ impl Comparison {
     }
 }
 
-/// Like [`validate`](super::validate), but ends if a query of a ray or of a batch takes longer than `limit`. The result
-/// then contains the finished batches and the hang. `expected` are the hits of `reference` for `rays`.
+/// Like [`validate`](super::validate), but ends if a query takes longer than `limit`. The result then contains only
+/// finished batches and the hang.
 ///
-/// Runs on as many separate threads as the machine has processors.
+/// `expected` contains the hits of `reference` for `rays`.
 pub fn validate_watched(
     subject: &Arc<dyn DynAccel>,
     reference: &Arc<Reference>,
@@ -125,7 +125,7 @@ pub fn validate_watched(
             let call = state.clock.overdue(limit)?;
             Some((state.batch.load(Ordering::Relaxed), call))
         };
-        // If several batches hang, report the first one.
+        // If several batches hang, report the batch with the lowest number.
         if let Some((number, call)) = states.iter().filter_map(overdue).min_by_key(|(number, _)| *number) {
             let batch = comparison.batch(number).expect("a thread compares it");
             batches.insert(number, batch.ended(call, Kind::Hangs, format!("no result within {limit:?}")));
@@ -133,7 +133,6 @@ pub fn validate_watched(
         }
     }
     for thread in threads {
-        // Panics of the structure are caught, so a panic of the thread is a defect of this crate.
         thread.join().unwrap_or_else(|fault| resume_unwind(fault));
     }
     Validation::of_batches(declined, batches.into_values())

@@ -11,7 +11,6 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The time limit of a reply.
 const TIMEOUT: Duration = Duration::from_secs(300);
 
 pub struct Chromium {
@@ -24,7 +23,7 @@ pub struct Chromium {
     _profile: TempDir,
 }
 
-/// Keys: name, code, and the text that the key types.
+/// Name, code and typed text of each key.
 const KEYS: [(&str, u32, &str); 12] = [
     ("Tab", 9, ""),
     ("Enter", 13, "\r"),
@@ -48,7 +47,7 @@ impl Chromium {
             eprintln!("skipped: no chromium on the path");
         }
         let profile = TempDir::new().unwrap();
-        // Chromium reads requests from descriptor 3 and writes replies to descriptor 4.
+        // Chromium reads requests from descriptor 3. Chromium writes replies to descriptor 4.
         let mut process = Command::new("sh")
             .args(["-c", "exec \"$0\" \"$@\" 3<&0 4>&1 </dev/null >/dev/null 2>/dev/null"])
             .arg(program?)
@@ -125,7 +124,7 @@ impl Chromium {
         self.evaluate(expression).as_str().unwrap_or_else(|| panic!("{expression} is not a string")).to_owned()
     }
 
-    /// Waits until `is_wanted` accepts the text.
+    /// Waits until `is_wanted` accepts the text of `expression`.
     pub fn text_once(&mut self, expression: &str, is_wanted: impl Fn(&str) -> bool) -> String {
         let begun = Instant::now();
         loop {
@@ -147,7 +146,7 @@ impl Chromium {
         }
     }
 
-    /// `across` and `down` are fractions of the element's width and height, from the top left.
+    /// `across` and `down` are fractions of the element's width and height. `[0, 0]` is the top left corner.
     pub fn click(&mut self, selector: &str, [across, down]: [f64; 2]) {
         let place = self.evaluate(&format!(
             "(() => {{ const e = document.querySelector('{selector}'); e.scrollIntoView({{ block: 'center' }}); \
@@ -159,7 +158,7 @@ impl Chromium {
         }
     }
 
-    /// The console messages of the page, its errors, and its requests to the network.
+    /// The console messages, errors and network requests of the page.
     fn complaints(&self) -> Vec<String> {
         let is_network_request = |event: &Value| {
             let url = event["params"]["request"]["url"].as_str().unwrap_or_default();
@@ -172,7 +171,7 @@ impl Chromium {
     }
 }
 
-/// Fails the test if the page has complaints.
+/// Fails the test if the list of complaints is not empty.
 impl Drop for Chromium {
     fn drop(&mut self) {
         let _ = self.process.kill();

@@ -11,7 +11,7 @@ use super::{assert_readable_everywhere, tab_to};
 use crate::cli::command::{Folder, WRONG};
 use crate::controls::{SIZE, pictures};
 
-/// The headings before "Identical". The failing pictures come first, then the accepted ones.
+/// The headings that precede the heading "Identical".
 const NAMES: [&str; 7] = ["0.png", "1.png", "2.png", "3.png", "gone.png", "4.png", "5.png"];
 
 fn page() -> PathBuf {
@@ -23,8 +23,8 @@ fn page() -> PathBuf {
             add(&format!("a/{i}.png"), &right);
             add(&format!("b/{i}.png"), other);
         }
-        // The tolerance accepts `4.png` and `5.png`.
         ["a/same.png", "b/same.png", "a/gone.png"].iter().for_each(|name| add(name, &right));
+        // `--max-difference 2` accepts `4.png` and `5.png`.
         folder.ends(WRONG, "golden compare a b --max-difference 2 --page page");
         folder
     });
@@ -49,7 +49,7 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     assert_eq!(browser.evaluate(names), json!([&NAMES[..], &["Identical"]].concat()));
     assert_eq!(browser.text("document.querySelector('.summary strong').textContent"), "5 of 8 failing");
 
-    // At first, the worst pixel is selected.
+    // The page initially selects the worst pixel.
     let (right, others) = pictures();
     let expected = |[x, y]: [u32; 2]| {
         let [expected, actual] = [&right, &others[0].1]
@@ -62,7 +62,7 @@ fn failing_comparisons_are_first_and_all_is_reached_by_keyboard_alone() {
     browser.press("ArrowUp");
     assert_eq!(pixel(&mut browser, 0), expected([101, 79]));
 
-    // `w` selects and zooms to the worst pixel, `z` resets the zoom, and `b` alternates between the two pictures.
+    // Key `w` zooms to the worst pixel. Key `z` resets the zoom. Key `b` alternates between the two pictures.
     assert!(browser.text(&property("zoom")).ends_with("scale(1)"));
     browser.press("w");
     assert_eq!(pixel(&mut browser, 0), expected([100, 80]));

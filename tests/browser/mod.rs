@@ -1,4 +1,4 @@
-//! Tests the page of a report in Chromium. The tests are skipped if Chromium is not installed.
+//! Tests HTML pages in Chromium. The tests are skipped if Chromium is not installed.
 
 mod chromium;
 #[cfg(feature = "page")]
@@ -38,7 +38,7 @@ fn tab_to(browser: &mut Chromium, selector: &str) {
 const HEAT: &str = "#figure-heat-torus";
 const ERRORS: &str = "#figure-errors-torus";
 
-/// Column and row of the pixel that a figure shows.
+/// Column and row of the selected pixel of a figure.
 fn pixel(browser: &mut Chromium, figure: &str) -> [i64; 2] {
     let shown = browser.text(&format!("document.querySelector('{figure} .pixel').textContent"));
     let numbers = shown.strip_prefix("Pixel ").and_then(|rest| rest.split(" from").next());
@@ -89,7 +89,7 @@ fn the_ray_inspector_works_by_keyboard_alone_and_shows_what_the_command_prints()
     for row in &shown[1..] {
         assert!(row[1..4].iter().all(|count| count.parse::<u64>().is_ok()), "{row:?}");
         let [t, triangle, u, v] = [&row[4], &row[5], &row[6], &row[7]];
-        // The command omits the name of a structure if the row above has the same structure with other options.
+        // The command omits the name of a structure if the row above has the same name.
         let name = row[0].split_once(':').map_or(row[0].as_str(), |(_, keys)| keys);
         let is_line = |line: &&str| [name, t, triangle, u, v].iter().all(|cell| line.contains(cell));
         assert!(u.len() > 5 && printed.lines().any(|line| is_line(&line)), "{row:?} is not in {printed}");
@@ -132,7 +132,7 @@ fn a_click_asks_the_nearest_pixel_of_any_picture() {
 /// A script that returns the texts whose contrast is below the limit of WCAG.
 const PALE: &str = include_str!("pale.js");
 
-/// A script that reports a page that is too wide, and columns of ratios that need scrolling.
+/// A script that reports content to the right of the visible area.
 const WIDE: &str = include_str!("wide.js");
 
 fn assert_readable_everywhere(page: impl Fn() -> PathBuf, look: impl Fn(&mut Chromium)) {

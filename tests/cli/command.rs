@@ -43,7 +43,7 @@ pub fn assert_contains(text: &str, parts: &[&str]) {
     }
 }
 
-/// Checks that a command fails without a result, and that its error message contains all of `parts`.
+/// The command must fail with an empty standard output. The error message must contain all `parts`.
 #[track_caller]
 pub fn refused(command: &mut Command, parts: &[&str]) -> String {
     let [text, message] = ends(USAGE, command);
@@ -61,7 +61,7 @@ pub fn refused_in_a_line(command: &mut Command, parts: &[&str]) {
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
-/// The text as a single line, because the command may break lines between any words.
+/// The text as a single line.
 pub fn unwrapped(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

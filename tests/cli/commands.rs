@@ -1,4 +1,4 @@
-//! Tests error messages, lists, help texts and standard output of all commands.
+//! Tests error messages, lists, help texts and standard output.
 
 use super::command::{Folder, RIGHT, SQUARE, assert_contains, command, ends, output_texts, unwrapped};
 
@@ -106,7 +106,7 @@ fn the_first_help_fits_a_screen_and_compare_has_a_short_help_and_a_whole_one_in_
         text.lines().map(String::from).collect::<Vec<_>>()
     };
     for line in ["--help", "-h", "help"] {
-        // A screen has 24 lines, and the prompt needs one of them.
+        // A screen has 24 lines. The prompt needs one line.
         let lines = help(line);
         assert!(lines.len() < 24 && lines.iter().all(|line| line.chars().count() <= 80), "{line}: {lines:#?}");
         let examples = lines.iter().skip_while(|line| *line != "Examples:").skip(1);
@@ -142,7 +142,7 @@ fn old_names_are_answered_with_the_new_ones() {
 
 #[test]
 fn a_minus_stands_for_standard_output_and_case_does_not_matter() {
-    // Standard output has only the result. Messages go to standard error.
+    // Standard output contains only the result. Messages go to standard error.
     let folder = Folder::new();
     for (line, magic, message) in [
         ("render CUBE -o - --view DEPTH -s Sah-KD:test=Exact --size 4x4", &b"\x89PNG"[..], "depth view of Cube"),

@@ -1,4 +1,4 @@
-//! Tests `sahara compare`: files, winners, colours, odd meshes.
+//! Tests the files, tables and messages of `sahara compare`.
 
 use std::collections::HashSet;
 
@@ -11,7 +11,7 @@ use super::journal::rows;
 
 const SMALL: &str = "--rays 400 --runs 2 --budget 1 -w primary -w shadow";
 
-/// The structures that are compared by default, without the peers that features add.
+/// The structures of a default comparison, without the structures of optional features.
 const FIELD: &str = "brute-force median-kd sah-kd sah-kd-wide sah-kd-tight sah-hybrid sah-hybrid:batch=packets \
                      sah-bvh obvhs-bvh2 obvhs-cwbvh";
 

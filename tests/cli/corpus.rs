@@ -1,4 +1,4 @@
-//! Tests `rays corpus`: the files are reproducible and readable.
+//! Tests the files that `rays corpus` writes.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,7 +14,7 @@ pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     entries.map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())).collect()
 }
 
-/// The output of `sha256sum -c`. `None` if the program is missing.
+/// The output of `sha256sum -c`. `None` if `sha256sum` is missing.
 fn checked(folder: &Path) -> Option<String> {
     let mut sha256sum = Command::new("sha256sum");
     sha256sum.args(["-c", "--strict", "SHA256SUMS"]).env("LC_ALL", "C").current_dir(folder);
@@ -41,7 +41,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
         println!("not checked: there is no sha256sum here");
     }
 
-    // Thread count and SIMD level do not change the corpus. A repeated scene counts once.
+    // Thread count and SIMD level do not change the corpus. A repeated scene is written only once.
     let mut again = folder.command("rays corpus CUBE cube -o d --rays 40 --level portable");
     let [again, _] = ends(RIGHT, again.env("RAYON_NUM_THREADS", "1"));
     assert!(again == printed && corpus() == first, "it is another one: {again}");
@@ -55,7 +55,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     let hash: String = truth[24..32].iter().map(|byte| format!("{byte:02x}")).collect();
     assert_eq!(hash, rays.workload.hash());
 
-    // A corpus of this mesh has the same rays, except camera rays. `.truth` files contain the hash of their rays.
+    // The corpora `d` and `e` have the same rays, except for camera rays.
     folder.prints("rays corpus d/cube.ply -o e --rays 40 --seed 2");
     for name in ["cube.ply", "cube-vertex.truth", "cube-offset.truth"] {
         assert!(corpus()[name] == files(&folder.path("e"))[name], "{name}");
@@ -91,7 +91,7 @@ fn what_a_corpus_cannot_be_made_of_is_refused_and_nothing_of_others_is_replaced(
     assert!(!folder.path("d").exists(), "a refused command created a folder");
     assert_eq!(files(&folder.path("theirs")).len(), 1);
 
-    // A corpus must not be made from files that it replaces.
+    // The command must not replace an input file.
     folder.prints("rays corpus square.obj -o d --rays 3");
     let before = files(&folder.path("d"));
     folder.refuses_in_a_line("rays corpus d/square.ply -o d", &["square.ply", "an input file"]);

@@ -1,4 +1,4 @@
-//! Tests studies of several epochs: their files, and a separate process per epoch.
+//! Tests the files and processes of studies with several epochs.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -29,7 +29,7 @@ fn a_study_goes_on_where_it_stopped_and_repeats_what_it_said() {
         // A removed case is measured again.
         fs::remove_file(&cases()[0]).unwrap();
         assert_eq!(run("2").1, 2 * measured, "{study}");
-        // Other settings and repeated measurements add files.
+        // Another seed and `--fresh` add cases.
         assert_eq!(run("1 --seed 2").1, 3 * measured, "{study}");
         assert_eq!(run("1 --fresh").1, 4 * measured, "{study}");
     }
@@ -43,7 +43,7 @@ fn study(folder: &Folder, dir: &str) -> Command {
     command
 }
 
-/// Kills the process with SIGKILL as soon as its journal has `wanted` cases.
+/// Kills the process as soon as the journal in `dir` has `wanted` cases.
 fn kill_at(mut child: Child, dir: &Path, wanted: usize) {
     let start = Instant::now();
     while cases(dir, "attribution").len() < wanted {
@@ -88,7 +88,7 @@ fn each_epoch_of_a_scene_has_a_process_and_one_process_answers_the_same() {
     folder.prints(&format!("{TWO_SCENES} one --in-process"));
     assert_eq!((processes(&apart).len(), processes(&one).len()), (4, 1), "two epochs of two scenes");
     assert_eq!(answers(&apart, "compare"), answers(&one, "compare"));
-    // The journal keeps the cases of both modes.
+    // The journal keeps the cases with and without `--in-process`.
     folder.prints(&format!("{TWO_SCENES} apart --in-process"));
     assert_eq!(cases(&apart, "compare").len(), 8);
 }

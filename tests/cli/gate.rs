@@ -1,6 +1,6 @@
 //! Tests the regression gate with the script and the commands of GATE.md.
 //!
-//! A runner with prescribed times replaces the structure.
+//! A shell script with prescribed times replaces the measured structure.
 #![cfg(unix)]
 
 use std::fs;
@@ -11,8 +11,7 @@ use super::runner::NOTHING;
 
 const DOCUMENT: &str = include_str!("../../src/study/diff/GATE.md");
 
-/// A folder with `gate.sh`, a shorter version of the script of GATE.md. The script compares the structure `only` with
-/// the runner `steady`.
+/// A folder with `gate.sh`, a faster version of the script in GATE.md. The reference is the runner `steady`.
 fn gated(only: &str, options: &str) -> Folder {
     let folder = Folder::new();
     folder.write("away.txt", "9,9,9 0,0,1\n".repeat(64));
@@ -34,7 +33,7 @@ fn gated(only: &str, options: &str) -> Folder {
     folder
 }
 
-/// The arguments of the `nth` call of the script in the workflows of GATE.md.
+/// The arguments of the `nth` call of `gate.sh` in GATE.md, counted from 0.
 fn arguments(nth: usize) -> &'static str {
     DOCUMENT.lines().filter_map(|line| line.trim().strip_prefix("- run: sh gate.sh ")).nth(nth).unwrap()
 }
@@ -44,20 +43,23 @@ fn shell(folder: &Folder, line: &str) -> Output {
     shell.args(["-c", line]).env("RUNNER_TEMP", folder.path("")).current_dir(folder.path("")).output().unwrap()
 }
 
-/// Makes the `nth` call of the script in GATE.md. `base` and `branch` contain the seconds per pass in even epochs and
-/// in odd epochs. Returns the output and the number of epochs that were measured on the branch.
+/// Runs `gate.sh` with the arguments of the `nth` call in GATE.md. `base` and `branch` contain the seconds per pass in
+/// even epochs and in odd epochs.
+///
+/// Returns the output and the number of measured epochs of the branch.
 fn gate(nth: usize, base: [f64; 2], branch: [f64; 2]) -> (Output, usize) {
     let command = arguments(nth);
     // The prefix `my-` is needed because a runner must not have the name of a structure.
     let folder = gated("my-$name", "--runner my-$name=$RUNNER_TEMP/told.sh");
-    // Each epoch has a process, which starts the runner. Line n of `STARTS` contains the process of epoch n - 1.
+    // The parent process of the runner changes with each epoch. Line n of the file `STARTS` contains the parent's
+    // process ID in epoch n - 1.
     let starts = "grep -qx $PPID \"$STARTS\" 2>/dev/null || echo $PPID >> \"$STARTS\"\n\
                   n=$(grep -nx $PPID \"$STARTS\" | cut -d: -f1)\n\
                   if [ $((n % 2)) -eq 1 ]; then own=$EVEN; else own=$ODD; fi\n";
     let runner = NOTHING.replacen("#!/bin/sh\n", &format!("#!/bin/sh\n{starts}"), 1);
     folder.program("told.sh", &runner.replace("*) echo \"passed 0.001\"", "*) echo \"passed $own\""));
     let sahara = env!("CARGO_BIN_EXE_sahara");
-    // Scripts at the paths of the two builds start sahara. They set the seconds per pass to `base` or `branch`.
+    // Two scripts replace the executables of base and branch. Each script sets the seconds per pass.
     let sides = command.split_whitespace().take(2).map(|word| word.trim_matches('"').replace("$RUNNER_TEMP/", ""));
     for (path, [even, odd]) in sides.zip([base, branch]) {
         let starts = folder.path(&(path.replace('/', "-") + ".starts"));
@@ -74,7 +76,7 @@ fn the_gate_passes_what_is_unchanged_fails_what_is_slower_and_ends_where_it_cann
     for (nth, base, branch, status, epochs, verdict) in [
         (0, [0.001; 2], [0.001; 2], RIGHT, 3, "my-sah-hybrid (own clock): right on 64 checked rays; no change"),
         (0, [0.001; 2], [0.0012; 2], REGRESSION, 3, "% slower"),
-        // Odd epochs of the branch are much slower than even ones, so six epochs are also inconclusive.
+        // The large difference between even and odd epochs makes the result inconclusive.
         (0, [0.001; 2], [0.0004, 0.0025], RIGHT, 6, "inconclusive"),
         (1, [0.001; 2], [0.0012; 2], REGRESSION, 3, "my-mybvh (own clock): right on 64 checked rays;"),
     ] {

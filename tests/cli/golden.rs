@@ -1,4 +1,4 @@
-//! Tests `golden`: pictures of any renderer, and golden images of any scene.
+//! Tests the commands `golden compare`, `golden check` and `golden update`.
 
 use std::fs;
 
@@ -59,7 +59,7 @@ fn folders_of_pictures_are_compared_by_name() {
         assert_eq!(text.contains("1 accepted, 1 identical"), accepted, "{options}: {text}");
     }
 
-    // The message about a failing picture contains the compared number and its limit.
+    // The message about a failing picture contains the measured value and the limit.
     for (options, sentence, limit) in [
         (
             "--max-difference 1 --allow-pixels 0.7%",
@@ -75,7 +75,7 @@ fn folders_of_pictures_are_compared_by_name() {
         assert!(limit.as_object().unwrap().iter().all(|(name, value)| own["limit"][name] == *value), "{own}");
     }
 
-    // If the only fault is a picture that is missing in one folder, the exit status is `USAGE`.
+    // A missing picture causes the exit status `USAGE` if no picture differs.
     folder.add("expected/gone.png", picture());
     folder.add("actual/new.png", picture());
     let text = folder.compare("--max-difference 2 --export-json run.json", USAGE);
@@ -89,10 +89,10 @@ fn folders_of_pictures_are_compared_by_name() {
     assert_eq!([&measures["pixels"], &measures["pixels_over"], &measures["compared"]], [9, 0, 1200]);
     assert!(measures["flip"]["mean"].as_f64() > Some(0.0) && measures["ssim"].as_f64() < Some(1.0), "{measures}");
 
-    // A damaged picture fails, and all other pictures are compared.
+    // A damaged picture counts as failed.
     folder.write("actual/same.png", "no picture");
     assert_contains(&folder.compare("--max-difference 2", USAGE), &["same.png: cannot read", "1 failed"]);
-    // A difference determines the exit status, even if a picture is damaged.
+    // If another picture differs, the exit status is `WRONG`.
     folder.compare("", WRONG);
 }
 
@@ -111,7 +111,7 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
         let [text, _] = folder.ends(WRONG, &format!("golden compare a.png {other}.png --max-difference 255"));
         assert_contains(&text, &["40 x 30 pixels of RGB with 8 bits", words, advice]);
     }
-    // The same pixels in another encoding are identical.
+    // The PNG encoding does not affect the comparison.
     let file = fs::File::create(folder.path("again.png")).unwrap();
     let theirs = PngEncoder::new_with_quality(file, CompressionType::Uncompressed, FilterType::NoFilter);
     picture().write_with_encoder(theirs).unwrap();
@@ -123,7 +123,7 @@ fn pictures_of_another_layout_and_what_cannot_be_compared_are_told() {
         ("golden compare a.png none.png", &["none.png", "there is no"][..]),
         ("golden compare a.png .", &["a folder and a file"]),
         ("golden compare empty empty", &["no pictures"]),
-        // No result may replace a compared picture.
+        // A result must not replace a compared picture.
         ("golden compare a.png a.png --export-json a.png", &["a.png", "an input file"]),
         #[cfg(feature = "page")]
         ("golden compare empty . --page empty/page", &["outside", "empty"]),

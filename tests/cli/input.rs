@@ -1,4 +1,4 @@
-//! Tests mesh files with faults, the memory of builds, and generated terrain.
+//! Tests faulty mesh files, the memory of builds, and generated terrain.
 
 use std::fs;
 
@@ -51,7 +51,7 @@ fn terrain(triangles: &str) -> Folder {
     folder
 }
 
-/// The maximum number of bytes per triangle that a build may allocate in addition to the mesh.
+/// The limit of the peak memory of a build, in bytes per triangle.
 const BOUND: f64 = 200.0;
 
 #[test]

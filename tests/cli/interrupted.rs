@@ -25,9 +25,9 @@ fn compare(folder: &Folder, more: &str) -> Command {
     command
 }
 
-/// Sets the handling of SIGINT and SIGTERM, because the child inherits ignored signals from this process.
+/// In the child, `handler` replaces the inherited handling of SIGINT and SIGTERM.
 fn spawn(mut command: Command, handler: SigHandler) -> Child {
-    // SAFETY: setting the action of a signal is async-signal-safe, and the closure allocates no memory.
+    // SAFETY: `signal` is async-signal-safe. The closure allocates no memory.
     unsafe {
         command.pre_exec(move || {
             for caught in [Signal::SIGINT, Signal::SIGTERM] {
@@ -39,7 +39,7 @@ fn spawn(mut command: Command, handler: SigHandler) -> Child {
     command.spawn().unwrap()
 }
 
-/// Interrupts a run after its first table, the table of the cube.
+/// Sends SIGINT to a run after the first table, the table of the cube.
 fn signalled(folder: &Folder, more: &str, handler: SigHandler) -> (ExitStatus, String) {
     let mut child = spawn(compare(folder, more), handler);
     let mut reader = BufReader::new(child.stdout.take().unwrap());
@@ -59,7 +59,7 @@ fn interrupted(folder: &Folder, more: &str) -> String {
     text
 }
 
-/// All 8 cases of the cube are measured, and fewer than 8 cases of the torus.
+/// The number of measured cases, including all 8 cases of the cube.
 fn measured(text: &str) -> usize {
     let progress =
         text.split("Interrupted: ").nth(1).unwrap_or_else(|| panic!("no line about the interruption: {text}"));
@@ -107,8 +107,7 @@ fn a_journal_that_was_interrupted_is_only_added_to() {
     assert!(whole.len() == CASES && kept.iter().all(|(name, bytes)| whole.get(name) == Some(bytes)));
 }
 
-/// Checks that `signal` ends a process after `message`. The exit status must name the signal, because only then does a
-/// shell end its script.
+/// Checks that `signal` ends a process that has printed `message`.
 #[track_caller]
 fn ends_by(signal: Signal, command: Command, message: &str) {
     let mut child = spawn(command, SigHandler::SigDfl);

@@ -8,12 +8,12 @@ use serde_json::Value;
 
 use super::command::json;
 
-/// The measured cases of a study. Empty if the study has no journal.
+/// The files in the journal of a study. Empty if the study has no journal.
 pub fn cases(runs: &Path, study: &str) -> Vec<PathBuf> {
     files(&runs.join(study)).unwrap_or_default()
 }
 
-/// The fields of every case, by scene and epoch, without times, peak memory and environment.
+/// The cases of a study, by scene and epoch. Times, peak memory and environment are removed.
 pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
     let mut answers = BTreeMap::new();
     for path in cases(runs, study) {
@@ -34,7 +34,7 @@ pub fn answers(runs: &Path, study: &str) -> BTreeMap<String, Value> {
     answers
 }
 
-/// One row per structure and workload of epoch 0, without twins.
+/// One row per scene, structure and workload of epoch 0. Structures with the role `twin` have no row.
 pub fn rows(export: impl AsRef<Path>) -> Vec<Value> {
     let mut rows = vec![];
     let export = json(export);

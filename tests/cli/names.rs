@@ -6,7 +6,7 @@ use std::process::Command;
 
 use super::command::{Folder, RIGHT, SQUARE, USAGE, assert_contains, command, ends};
 
-/// Two file names and their printed forms: bytes that are not UTF-8, and an escape sequence with a line break.
+/// Pairs of a file name and its printed form.
 const NAMES: [(&[u8], &str); 2] = [(b"gr\xfcn", "gr\\xfcn"), (b"a\x1b[31m\nb", "a\\u{1b}[31m\\nb")];
 
 #[test]
@@ -15,7 +15,7 @@ fn files_of_any_name_are_taken_and_shown_escaped() {
         let folder = Folder::new();
         let with_ending = |ending: &str| [OsStr::from_bytes(name), ending.as_ref()].into_iter().collect::<OsString>();
         let path = |ending: &str| folder.path("").join(with_ending(ending));
-        // In `line`, `@.obj` is the file with this name and extension.
+        // An initial `@` of a word is replaced by `name`.
         let run = |line: &str, status: i32| {
             let words = line.split(' ').map(|word| word.strip_prefix('@').map_or(word.into(), with_ending));
             let text = ends(status, folder.command("--quiet").args(words)).concat();
@@ -68,7 +68,7 @@ fn files_of_any_name_are_taken_and_shown_escaped() {
             assert!(text.lines().count() == 1 && text.contains(shown), "{line}: {text}");
         }
 
-        // A plan quotes file names for a shell. After its job, the study finds the case in the journal.
+        // A plan quotes file names for a shell.
         let line = run("study plan compare --dir @.jobs --scenes @.obj --rays 16 --epochs 1 -s sah-kd", RIGHT);
         assert_eq!(line.lines().count(), 1, "{line}");
         let program = env!("CARGO_BIN_EXE_sahara");

@@ -1,4 +1,4 @@
-//! Tests the exit status if output cannot be written, and panics of builders.
+//! Tests commands whose output cannot be written, and builders that panic.
 
 use std::fs::File;
 use std::process::Command;

@@ -1,6 +1,4 @@
 //! Tests `study plan`, which prints independent jobs.
-//!
-//! Each job writes one file, and the files form the journal of a study.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -75,7 +73,6 @@ fn a_plan_is_one_command_a_case_with_a_file_of_its_own() {
 
 #[test]
 fn what_cannot_be_planned_is_one_sentence() {
-    // An option must not occur twice, at any position. The options of a preset count as occurrences.
     let twice = "cannot be used multiple times";
     for (line, parts) in [
         ("attributoin", &["attributoin"][..]),
@@ -85,12 +82,11 @@ fn what_cannot_be_planned_is_one_sentence() {
         ("--dir a compare scaling --dir=b", &["--dir", twice]),
         ("compare scaling --dir a --dir b", &["--dir", twice]),
         ("compare --rays 64 --quick --quick", &["--quick", twice]),
-        // A plan has no results, so it rejects options that write results.
+        // `study plan` rejects options that write results.
         ("attribution --rays 64 --export-json x.json", &["--", "when all jobs are done"]),
         ("attribution --rays 64 --export-csv=x.csv", &["--", "when all jobs are done"]),
         ("attribution --rays 64 --plot x.svg", &["--", "when all jobs are done"]),
         ("attribution --scenes cube --plot x.svg", &["--plot", "when all jobs are done"]),
-        // `--fresh` is rejected, because a job that finds its case in the journal does not measure again.
         ("attribution --rays 64 --fresh", &["--fresh", "--dir"]),
     ] {
         Folder::new().refuses_in_a_line(&format!("study plan {line}"), parts);
@@ -118,13 +114,13 @@ fn jobs_in_any_order_are_the_study() {
     assert_eq!(answers(&apart, "attribution").len(), 4);
     assert_eq!(answers(&apart, "attribution"), answers(&one, "attribution"));
 
-    // The files are the journal of the study. The study therefore measures no case and changes no file.
+    // The study must not change the files of the jobs.
     let before: Vec<Vec<u8>> = lines.iter().map(|line| fs::read(file(line)).unwrap()).collect();
     assert!(folder.prints(&format!("study {SMALL} --dir apart cube sphere")).contains("Cube"));
     assert_eq!(lines.iter().map(|line| fs::read(file(line)).unwrap()).collect::<Vec<_>>(), before);
     assert_eq!(fs::read_dir(apart.join("attribution")).unwrap().count(), 4);
 
-    // The provenance contains the command of the study, not of the job.
+    // The provenance contains the command of the study, not the command of the job.
     let provenance = &json(file(&lines[0]))["provenance"];
     for field in ["host", "cpu", "commit", "target_features", "date", "command"] {
         assert!(!provenance[field].as_str().unwrap().is_empty(), "{field}");
@@ -139,7 +135,7 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     folder.write("square.obj", SQUARE);
     let mesh = folder.path("square.obj").to_str().unwrap().to_owned();
     let lines = plan(&folder.path(""), &format!("{SMALL} --scenes {mesh}"));
-    // Two jobs for one file run at the same time. One job writes the file, and both jobs succeed.
+    // Two jobs for one file run at the same time. Both jobs succeed.
     let both = [0, 1].map(|_| job(&lines[0]).spawn().unwrap());
     let both = both.map(|child| child.wait_with_output().unwrap());
     assert!(both.iter().all(|output| output.status.code() == Some(RIGHT)), "{both:?}");
@@ -159,7 +155,6 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
     refused(&lines[1], &[&mesh]);
     fs::rename(&away, &mesh).unwrap();
 
-    // A job fails if its file contains another case, if its scene has changed, or if there are too few cores.
     let hash = &lines[1].split("\"hash\":\"").nth(1).unwrap()[..16];
     for (from, to, part) in [
         (file(&lines[1]).to_str().unwrap(), path.to_str().unwrap(), "contains another case"),
@@ -180,12 +175,12 @@ fn a_job_measures_once_and_refuses_what_is_not_its_own() {
 fn what_cannot_be_written_is_one_sentence_and_no_file() {
     let folder = Folder::new();
     let lines = plan(&folder.path("runs"), &format!("{SMALL} --scenes cube"));
-    // The folder cannot be created, because a file has its name.
+    // The file `runs` prevents the creation of the folder `runs`.
     folder.write("runs", "x");
     refused(&lines[0], &["cannot write", "runs/attribution"]);
     fs::remove_file(folder.path("runs")).unwrap();
 
-    // Simulate a full disk: the system accepts at most one block per file.
+    // Simulate a full disk with a limit of one block per file.
     #[cfg(target_os = "linux")]
     {
         let job = lines[0].strip_prefix("sahara ").unwrap();

@@ -1,4 +1,4 @@
-//! Tests `report`: the folder that it writes, and the inputs that it rejects.
+//! Tests the folder that `report` writes, and the inputs that `report` rejects.
 
 use std::fs;
 
@@ -31,7 +31,7 @@ fn a_report_is_written_whole_with_pictures_and_again_in_its_place() {
     folder.prints("report runs -o other");
     assert_eq!(folder.read("other/index.html"), page);
 
-    // The page and `render` have the same heat scale, because the costliest tree is the same.
+    // The page and `render` have the same heat scale.
     let scale: u64 = page.split("--hottest ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     let bar = format!("colour bar runs from 0 to {scale} ");
     folder.shows("render torus --view heat -o heat.png", &["512 x 527 pixels", &bar]);
@@ -74,7 +74,7 @@ fn results_are_written_with_the_numbers_of_the_readme_beside_them() {
         assert!(folder.path("papers").join(file).is_file(), "{file}");
     }
 
-    // A second run changes nothing. If the README refers to an unknown finding, no file is written.
+    // A second run does not change the README. If the README refers to an unknown finding, no file is written.
     folder.prints(report);
     assert_eq!(folder.read("README.md"), filled);
     folder.write("README.md", filled.replace("replicate.hard", "no.such"));

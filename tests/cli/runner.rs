@@ -10,7 +10,7 @@ use super::journal::{cases, rows};
 
 const EXAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/runner/brute_force.cpp");
 
-/// `None` without a compiler.
+/// Returns `None` if the compiler `c++` is missing.
 fn compiled(name: &str, change: impl Fn(String) -> String) -> Option<Folder> {
     if Command::new("c++").arg("--version").output().is_err() {
         println!("skipped: there is no C++ compiler, `c++`, here");
@@ -26,7 +26,7 @@ fn compiled(name: &str, change: impl Fn(String) -> String) -> Option<Folder> {
 
 const SMALL: &str = "compare cube -s sah-kd -w primary -w shadow --rays 400 --epochs 2 --runner";
 
-/// Returns output and messages as one line, and the rows of the export.
+/// Returns the printed text on one line, and the rows of the export.
 #[track_caller]
 fn records(folder: &Folder, line: &str, status: i32) -> (String, Vec<Value>) {
     let text = folder.ends(status, &format!("{line} --export-json r.json")).concat();
@@ -51,12 +51,12 @@ fn the_example_of_the_document_is_timed_beside_ours() {
         for same in ["hash", "all", "query"] {
             assert_eq!(ours[same], theirs[same]);
         }
-        // The triangle tests of structure and runner may disagree on few rays.
         assert!(theirs["ns"].as_array().unwrap().len() == ours["ns"].as_array().unwrap().len(), "{theirs}");
+        // The triangle tests of the structure and the runner may disagree on a few rays.
         let hits = |record: &Value| record["counts"]["hits"].as_f64().unwrap();
         assert!((hits(ours) - hits(theirs)).abs() <= 0.001 * hits(ours), "{ours} {theirs}");
     }
-    // The example returns a miss for every invalid ray, as FORMAT.md demands.
+    // The example returns a miss for every invalid ray.
     folder.shows(
         "validate --hard rays_nan_dir rays_inf_dir --rays 50 --runner ./brute_force",
         &["brute_force is right on 100 rays"],
@@ -68,7 +68,7 @@ fn wrong_hits_of_a_program_cost_it_all_its_times_and_nobody_else() {
     let Some(folder) = compiled("loses", |text| text.replace("u >= 0 &&", "u >= 0.5 &&")) else { return };
     let (text, records) = records(&folder, &format!("{SMALL} ./loses"), WRONG);
     assert!(text.contains("loses (own clock)") && text.contains(" wrong"), "{text}");
-    // A cube casts no shadow on itself, so shadow rays are right. Wrong primary hits remove the times of all workloads.
+    // Wrong primary hits also remove the times of the shadow rays.
     let timed: Vec<bool> = records.iter().map(|record| !record["ns"].as_array().unwrap().is_empty()).collect();
     assert_eq!(timed, [true, true, false, false], "{text}");
     assert!(records[2]["checked"]["errors"].as_u64() > Some(0), "{text}");
@@ -131,7 +131,6 @@ fn a_program_that_fails_is_not_checked_and_not_wrong() {
 
 #[test]
 fn a_slow_program_has_time_for_each_reply() {
-    // All passes of the program together take longer than each of the limits.
     let slow = "--runner './nothing.sh slow' --limit 0.5 --runner-limit 1";
     nothing().shows(&format!("validate --hard flat_inplane --rays 16 {slow}"), &["is right on 16 rays"]);
 }
@@ -187,7 +186,6 @@ fn what_is_no_runner_is_refused_before_anything_is_measured() {
 fn another_build_of_a_program_is_another_structure() {
     let folder = nothing();
     let own = "compare cube -s sah-kd -w primary --rays 256 --epochs 1 --budget 1 --runner ./nothing.sh --dir runs";
-    // The program misses every ray, so its hits are wrong.
     let measured = || {
         folder.ends(WRONG, own);
         cases(&folder.path("runs"), "compare").len()

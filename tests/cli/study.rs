@@ -1,4 +1,4 @@
-//! Tests `sahara study`: its output, exports and figures.
+//! Tests the output, exports and figures of `sahara study`.
 
 use serde_json::Value;
 
@@ -20,7 +20,7 @@ fn accuracy_prints_exports_and_draws_what_it_finds() {
     let exact: Vec<&Value> = rows.iter().filter(|row| row["triangle_test"] == "exact").collect();
     assert_eq!(exact.len(), 2);
     assert!(exact.iter().all(|row| wrong(row) == [0; 3] && row["errors"]["rays"] == 300), "{rows:?}");
-    // A separate process measured the rows, but the dataset contains the command of the whole run.
+    // The provenance contains the command of the study, not the command of a child process.
     let provenance = &json(folder.path("a.json"))["provenance"];
     assert_eq!(provenance["process_per_epoch"], true);
     assert!(!provenance["command"].as_str().unwrap().contains("--case"), "{provenance}");

@@ -6,10 +6,9 @@ use super::command::{Folder, RIGHT, SQUARE, WRONG, assert_contains, json, unwrap
 fn validation_tells_right_from_wrong() {
     Folder::new().prints("validate cube torus --rays 2000 -s median-kd -s sah-kd");
 
-    // obvhs-cwbvh loses the hit of this ray, because a direction component is -0.0.
+    // The direction component -0 causes obvhs-cwbvh to lose the hit.
     let validate =
         |structures: &str| Folder::new().prints(&format!("validate cube --ray '0.5,0.25,5 -0,0,-1' -s {structures}"));
-    // Known defects of a baseline are printed and do not change the exit status.
     let defects = "obvhs-cwbvh: known defects (they do not change the exit status)";
     assert_contains(&validate("obvhs-cwbvh --verbose"), &[defects, "0.5,0.25,5.0 -0.0,0.0,-1.0"]);
     // The front face of the cube is at z = 1.
@@ -25,7 +24,7 @@ fn validation_tells_right_from_wrong() {
     validate("sah-kd --against obvhs-bvh2");
 }
 
-/// In `f64`, the depth on a needle is 115 ulps off, which is an error.
+/// The depth that `moller-trumbore-f64` computes is 115 ulps from the exact depth.
 #[test]
 fn validation_against_exact_answers_judges_depths_strictly() {
     let folder = Folder::new();
@@ -102,7 +101,7 @@ fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
                 .refuses(&format!("validate {option_in_use} {unheeded}"), &[option, other, "cannot be used with"]);
         }
     }
-    // These rays do not depend on the camera, so no message advises `--inside`.
+    // No message may advise `--inside` for rays that do not depend on the camera.
     let folder = Folder::new();
     folder.write("square.obj", SQUARE);
     for rays in ["--ray '0,0,9 0,0,-1'", "--adversarial --rays 20"] {
@@ -111,7 +110,7 @@ fn options_that_the_rays_asked_for_do_not_heed_are_refused() {
     }
 }
 
-/// The reference, Möller-Trumbore, overflows on a triangle with coordinates of 1e30 and finds no hit.
+/// The reference finds no hit, because Möller-Trumbore overflows on coordinates of 1e30.
 #[test]
 fn a_wrong_reference_is_no_error_of_a_triangle_test() {
     let folder = Folder::new();

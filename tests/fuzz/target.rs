@@ -1,4 +1,4 @@
-//! A fuzz case: a mesh and rays of arbitrary floats, with the properties to check.
+//! A fuzz case has a mesh and rays of arbitrary floats.
 //!
 //! `tests/properties.rs` and the fuzz target of this folder share this file.
 
@@ -17,7 +17,7 @@ use sahara::simd::Level;
 use sahara::validate::adversarial::{near_the_largest_t, rounded_ends};
 use sahara::validate::{Reference, validate};
 
-/// Every eight-wide tree must occur with and without packets.
+/// Every eight-wide tree must occur with and without `batch=packets`.
 pub const VARIANTS: [(&str, &str); 17] = [
     ("brute-force", ""),
     ("median-kd", ""),
@@ -44,7 +44,7 @@ const BATCHED: [&str; 3] = ["moller-trumbore", "watertight", "exact"];
 /// Guards the SIMD level, which is a setting of the whole process.
 static LEVEL: Mutex<()> = Mutex::new(());
 
-/// Numbers are arbitrary, and indices may be out of range.
+/// Floats may be NaN or infinite. Indices may be out of range.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub positions: Vec<Vec3>,
@@ -53,11 +53,10 @@ pub struct Case {
 }
 
 impl Case {
-    /// Checks all properties.
+    /// Checks the hits of all structures.
     ///
-    /// A mesh is rejected with a sentence, or every structure is built over the mesh. Over each triangle test, every
-    /// structure returns the hits of brute force, and the lowest number of a tie. All SIMD levels return the same bits.
-    /// `exact` returns the results of the oracle and of rational arithmetic.
+    /// Every structure must return the hits of brute force. In a tie, the hit must be the primitive with the lowest
+    /// index. The hits must be equal on all SIMD levels. The triangle test `exact` must return the hits of the oracle.
     ///
     /// # Errors
     /// The violated property, with the case.
@@ -91,8 +90,6 @@ impl Case {
             }
         }
 
-        // The oracle shares code with `exact`, but rational arithmetic does not. Rational arithmetic is slow, so test
-        // every 20th ray.
         let exact = Reference::of_test("exact", &mesh).map_err(|e| blame(e.to_string()))?;
         for (i, (ray, hit)) in rays.iter().zip(exact.accel.closest(&rays)).enumerate() {
             let truth = oracle::nearest(ray, &mesh).map(|truth| truth.first());
@@ -101,6 +98,7 @@ impl Case {
                 return Err(blame(format!("exact: ray \"{ray}\": {found:?} in place of {truth:?}")));
             }
             let rational = || rational::nearest(ray, mesh.solid().map(|id| (id, mesh.corners(id))));
+            // Rational arithmetic is slow, so only every 20th ray is tested with rational arithmetic.
             if i % 20 == 0 && rational() != truth {
                 return Err(blame(format!("exact sums: ray \"{ray}\": {truth:?} in place of {:?}", rational())));
             }
@@ -108,8 +106,8 @@ impl Case {
         Ok(())
     }
 
-    /// The rays, and copies of the first rays with a hit. Intervals of the copies end or begin at the float to which
-    /// the exact `t` rounds. Further copies have short directions, which move `t` close to the largest float.
+    /// Returns the rays and copies of some rays. The interval of a copy begins or ends at the nearest hit, with
+    /// `t` rounded to a float. A short direction moves `t` of some copies close to the largest float.
     fn with_rounded_ends(&self, mesh: &Mesh) -> Vec<Ray> {
         let nearest = |ray: &Ray| oracle::nearest(ray, mesh).map(|truth| truth.t);
         let mut rays = self.rays.clone();
@@ -121,12 +119,11 @@ impl Case {
         rays
     }
 
-    /// Reads a case from any bytes. Missing bytes are 0. A case uses only some kinds of floats, so numbers of similar
-    /// size are likely.
+    /// Reads a case from any bytes. Missing bytes are 0. A case uses only some kinds of floats.
     pub fn read(bytes: &[u8]) -> Self {
         let mut bytes = Bytes { left: bytes, kinds: (0..KINDS).collect() };
         let points = 3 + bytes.byte() as usize % 29;
-        // A wild mesh may have invalid numbers or indices. Few meshes are wild, because an invalid mesh ends the check.
+        // A wild mesh may have invalid coordinates or indices.
         let wild = bytes.byte() > 0xf8;
         let mixture = 1 + bytes.byte() % ((1 << (KINDS - 1)) - 1);
         bytes.kinds.retain(|kind| mixture >> kind & 1 == 1);
@@ -134,7 +131,7 @@ impl Case {
         let limit = if wild { points + 1 } else { points } as u32;
         let triangles = (0..bytes.byte() % 48).map(|_| [0; 3].map(|_: u32| u32::from(bytes.byte()) % limit)).collect();
         let mut rays = vec![];
-        // Rays sometimes draw from more kinds than the mesh, including NaN and infinity.
+        // In some cases, rays use more kinds of floats than the mesh.
         let more = bytes.byte();
         if more < 64 {
             bytes.kinds.extend((0..KINDS).filter(|kind| more >> kind & 1 == 1).chain([KINDS - 1]));
@@ -159,7 +156,7 @@ impl Case {
 /// The maximum number of rays that are copied per case.
 const COPIED_RAYS: usize = 6;
 
-/// `rays`, followed by groups of sixteen rays in one direction octant, which form packets.
+/// Returns `rays`, followed by packets of sixteen rays. The directions in a packet are in one octant.
 fn with_packets(rays: &[Ray]) -> Vec<Ray> {
     let mut octants: BTreeMap<[bool; 3], Vec<Ray>> = BTreeMap::new();
     for ray in rays {
@@ -169,14 +166,14 @@ fn with_packets(rays: &[Ray]) -> Vec<Ray> {
     crowds.sort_by_key(|alike| Reverse(alike.len()));
     let mut rays = rays.to_vec();
     for alike in crowds.iter().take(2) {
-        // A packet begins at a multiple of sixteen in the slice.
+        // A packet begins at an index divisible by sixteen.
         rays.resize(rays.len().next_multiple_of(16), alike[0]);
         rays.extend(alike.iter().cycle().take(alike.len().next_multiple_of(16)));
     }
     rays
 }
 
-/// Names of structures of this crate that have no variant.
+/// The names of our structures that are missing in `VARIANTS`.
 #[allow(dead_code, reason = "a test of `tests/properties.rs`, not of the fuzzer")]
 pub fn left_out() -> Vec<String> {
     let registry = Registry::builtin();
@@ -207,7 +204,7 @@ fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> 
 
 const KINDS: u8 = 7;
 
-/// The kinds are k/8, zero, denormal, power of two, moderate size, arbitrary bits, and NaN or infinity.
+/// Kinds 0 to 6: multiple of 1/8, zero, denormal, power of two, magnitude below 4, arbitrary bits, not finite.
 fn float_of(kind: u8, bits: u32) -> f32 {
     let signed = |x: f32| if bits >> 31 == 1 { -x } else { x };
     match kind {
@@ -244,7 +241,7 @@ impl Bytes<'_> {
         float_of(kind, bits)
     }
 
-    /// The numbers are finite if `wild` is false.
+    /// If `wild` is false, all coordinates are finite.
     fn point(&mut self, wild: bool) -> Vec3 {
         Vec3::from_array([0; 3].map(|_: u8| {
             let x = self.float();

@@ -1,4 +1,4 @@
-//! The grid with one of nine faults. The conformance suite and `validate` must reject each fault.
+//! A grid with one of nine faults. The command `validate` must detect each fault.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -24,12 +24,12 @@ pub enum Fault {
     /// Returns a miss for one ray in 10,000.
     Drops,
     WrongId,
-    /// Computes `t` 3 ulps too far.
+    /// Returns `t` 3 ulps too large.
     Late,
     AnyHitDisagrees,
     Panics,
     Hangs,
-    /// Loses the hit of every 500th query.
+    /// Loses every 500th hit.
     Moody,
     BuilderPanics,
     BuilderHangs,

@@ -1,4 +1,4 @@
-//! A simple binary BVH with its own triangle test and one of the usual faults.
+//! A simple binary BVH with one of several typical faults.
 
 use std::sync::Arc;
 
@@ -16,25 +16,25 @@ pub enum Fault {
     LeafDropped,
     /// The far child is skipped after a hit in the near child.
     ChildOrder,
-    /// The interval is not shortened to the nearest hit. The hit that is found last is returned.
+    /// A hit does not shorten the ray interval. A farther hit can replace a nearer hit.
     StaleTMax,
     /// A box is missed if a slab distance is 0 times infinity.
     ZeroTimesInfinity,
     LastTriangle,
-    /// Two hits at one depth cancel each other.
+    /// Two hits at the same depth cancel each other.
     Ties,
-    /// Any hit ignores the end of the interval.
+    /// The any-hit query ignores `t_max`.
     AnyHit,
-    /// Hits nearer than a thousandth do not count.
+    /// Hits with `t` below 0.001 are ignored.
     Epsilon,
-    /// The number of the leaf is returned instead of the number of the triangle.
+    /// The primitive number of a hit is derived from the number of the leaf.
     WrongId,
     DegenerateBox,
-    /// The stack is too small, and nodes beyond it are dropped.
+    /// Nodes that do not fit on the stack are dropped.
     OverflowedStack,
-    /// A ray in the plane of a triangle hits it at a NaN depth.
+    /// Rays parallel to a triangle hit the triangle at a NaN depth.
     NotANumber,
-    /// Depths are a thousandth too large.
+    /// Depths are 0.1 % too large.
     TOff,
 }
 
@@ -49,7 +49,7 @@ type Bounds = [Vec3; 2];
 
 enum Node {
     Inner(Box<[(Bounds, Node); 2]>),
-    /// The number of the node in depth-first order, and the triangles.
+    /// The number of the leaf among all nodes in depth-first order, and the triangles of the leaf.
     Leaf(u32, Vec<u32>),
 }
 
@@ -108,7 +108,7 @@ impl Faulty {
         (near <= far && !is_flat).then_some(near)
     }
 
-    /// Möller and Trumbore's test.
+    /// The triangle test of Möller and Trumbore.
     fn hit(&self, ray: &Ray, index: u32) -> Option<f32> {
         let [a, b, c] = self.mesh.corners(index);
         let (e, f) = (b - a, c - a);

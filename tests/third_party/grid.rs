@@ -7,7 +7,7 @@ use sahara::glam::{DVec3, Vec3};
 use sahara::serde::{Deserialize, Serialize};
 use sahara::triangle::{Depth, TriangleTest};
 
-/// Cells of equal size. Each cell has the numbers of the triangles whose boxes meet the cell.
+/// Cells of equal size. Each cell lists the triangles whose boxes overlap the cell.
 pub struct Grid<T: TriangleTest> {
     origin: DVec3,
     cell: DVec3,
@@ -20,7 +20,7 @@ pub struct Grid<T: TriangleTest> {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(crate = "sahara::serde", deny_unknown_fields)]
 pub struct GridConfig {
-    /// Cells along every axis, 1 to 256.
+    /// The number of cells along each axis, from 1 to 256.
     pub resolution: usize,
 }
 
@@ -31,24 +31,27 @@ impl Default for GridConfig {
 }
 
 impl<T: TriangleTest> Grid<T> {
-    /// The first and last cell along `axis` that a range of coordinates meets. Slack covers the rounding of `f64`.
+    /// The first and the last cell along `axis` that overlap the interval from `low` to `high`.
+    ///
+    /// The slack is larger than the rounding errors of `f64`.
     fn cells_between(&self, axis: usize, low: f64, high: f64) -> Option<[usize; 2]> {
         let slack = 1e-12 * (low.abs().max(high.abs()) + self.origin[axis].abs() + self.cell[axis]);
         let index = |x: f64| ((x - self.origin[axis]) / self.cell[axis]).floor();
         let (first, last, end) = (index(low - slack), index(high + slack), self.resolution as f64);
-        // The far face of the grid belongs to its last cell.
+        // Coordinates on the far face of the grid belong to the last cell.
         (last >= 0.0 && first <= end).then(|| [first, last].map(|x| x.clamp(0.0, end - 1.0) as usize))
     }
 
-    /// The indices of the cells in these ranges along x, y and z.
+    /// The indices of the cells in the ranges `xs`, `ys` and `zs`.
     fn block(&self, [xs, ys, zs]: [[usize; 2]; 3]) -> impl Iterator<Item = usize> + use<T> {
         let n = self.resolution;
         let rows = (zs[0]..=zs[1]).flat_map(move |z| (ys[0]..=ys[1]).map(move |y| (z * n + y) * n));
         rows.flat_map(move |row| (xs[0]..=xs[1]).map(move |x| row + x))
     }
 
-    /// Visits the layers of cells perpendicular to the main axis of the ray, nearest first. In each layer, tests the
-    /// cells that the ray may touch.
+    /// Visits the layers of cells perpendicular to the main axis of the ray, nearest layer first.
+    ///
+    /// In each layer, tests the triangles of the cells that the ray may touch.
     fn walk<const ANY: bool, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         if !ray.is_valid() {
             return None;
@@ -87,7 +90,7 @@ impl<T: TriangleTest> Grid<T> {
                 for &id in cell {
                     let hit = T::hit(&prepared, &self.triangles[id as usize], t_min, T::last(t_max));
                     let Some(depth) = hit else { continue };
-                    // The nearest hit wins. At equal depth, the lowest number wins.
+                    // At equal depth, the lowest triangle number wins.
                     if nearest.is_none_or(|(n, i)| T::order(&prepared, &depth, &n).then(id.cmp(&i)).is_lt()) {
                         nearest = Some((depth, id));
                     }
@@ -113,7 +116,7 @@ impl<T: TriangleTest> Accel for Grid<T> {
         }
         let bounds = if mesh.is_empty() { Aabb::of_points([Vec3::ZERO]) } else { mesh.bounds() };
         let (origin, size) = (bounds.min.as_dvec3(), bounds.max.as_dvec3() - bounds.min.as_dvec3());
-        // The maximum gives the cells of a flat box a positive size.
+        // `max` gives the cells of a flat box a positive size.
         let cell = (size / resolution as f64).max(DVec3::splat(size.max_element().max(1e-300) * 1e-6));
         let triangles = (0..mesh.len() as u32).map(|id| T::block(&[mesh.corners(id)])).collect();
         let cells = vec![vec![]; resolution.pow(3)];

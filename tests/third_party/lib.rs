@@ -1,4 +1,4 @@
-//! Structures, a scene generator and a study, as a crate of a user would define them.
+//! An example of a user crate with structures, a scene generator and a study.
 
 pub mod broken;
 pub mod faulty;

@@ -1,4 +1,4 @@
-// A study of another crate with its own scenes.
+// An example of a study in another crate, with generated scenes.
 use sahara::anyhow;
 use sahara::clap::{ArgMatches, Args, Command, FromArgMatches};
 use sahara::glam::Vec3;
@@ -9,7 +9,7 @@ use sahara::scene::{Model, Scene, WorkloadKind};
 use sahara::study::measurement::{Measurement, measurements};
 use sahara::study::{Dataset, Plan, PlannedScene, Presets, Settings, Study};
 
-/// The scene `staircase:N`: N steps, each a triangle. Every second step is wide.
+/// The scene `staircase:N` has N steps. Each step is one triangle. Every second step is wide.
 pub fn staircase(parameters: &str) -> anyhow::Result<Scene> {
     let steps: u32 = parameters.parse()?;
     let corner = |i: u32, wide: f32, z: f32| Vec3::new(i as f32 * 0.1 + wide, i as f32 * 0.1, z);

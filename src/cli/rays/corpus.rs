@@ -69,7 +69,7 @@ pub fn run(registry: &Registry, args: &Args, terminal: &Terminal) -> anyhow::Res
     let named = if args.scenes.is_empty() { all() } else { args.scenes.clone() };
 
     let waiting = spinner("loading scenes", terminal);
-    // Replace built-in meshes with stand-ins, which are the same on every machine.
+    // Stand-ins replace the downloaded meshes of built-in scenes. Stand-ins are the same on every machine.
     let own = |name: &OsString| if Builtin::find(name).is_ok() { stand_in(name) } else { name.clone() };
     let scenes = request::scenes(registry, &named.iter().map(own).collect::<Vec<OsString>>())?;
 
@@ -139,7 +139,7 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Fi
     Ok((files, counts))
 }
 
-/// The ray file stores no scene hash, because the mesh file omits materials and lights.
+/// The ray file stores no scene hash, because a scene from the mesh file has another hash.
 fn rays_with_exact_hits(
     scene: &Scene,
     kind: RayKind,

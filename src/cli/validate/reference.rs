@@ -27,7 +27,7 @@ const FILE_TESTS: u32 = 36;
 /// Triangle tests between two progress messages. Brute force runs these tests in about a second.
 const PROGRESS_TESTS: usize = 1 << 29;
 
-/// The structure in `--against`. `None` is brute force with the triangle test of the checked structure.
+/// The structure in `--against`. `None` is brute force without a given triangle test.
 pub struct ReferenceChoice(Option<Choice>);
 
 impl ReferenceChoice {
@@ -84,7 +84,7 @@ impl fmt::Display for ReferenceChoice {
 
 pub type ReferenceHits = (Arc<Reference>, Vec<Option<Hit>>);
 
-/// The references of one scene. Each reference is built and traced once.
+/// The references of one scene. Each reference is built once.
 pub struct References<'a> {
     pub scene: &'a Scene,
     pub rays: &'a [Ray],

@@ -19,7 +19,7 @@ impl Capabilities {
     /// All features.
     pub const ALL: Self = Self { any_hit: true, t_min: true, closed_start: true, t_max: true };
 
-    /// Whether `ray` counts as declined because the `nearest` hit lies at `t_min`.
+    /// Whether `ray` counts as declined because the `nearest` hit lies at the start of the interval.
     pub fn excuses(self, ray: &Ray, nearest: Option<Hit>) -> bool {
         !self.closed_start && nearest.is_some_and(|hit| hit.t == ray.interval().0)
     }

@@ -16,7 +16,8 @@ pub trait Loaded: Send + Sync {
     /// If `hits` and the batch differ in length.
     fn any_hits(&self, hits: &mut [bool]);
 
-    /// Nanoseconds of the previous query, measured by the other process. `None` for a structure in this process.
+    /// Nanoseconds of the previous query, measured by a structure in another process. `None` for a structure in this
+    /// process.
     fn own_ns(&self) -> Option<u64> {
         None
     }

@@ -7,7 +7,7 @@
     note = "pass `&mut ()` to observe nothing, or `&mut Counts::default()` to count steps and tests"
 )]
 pub trait Observer {
-    /// Whether the observer uses the events. If `false`, a structure may report no events.
+    /// Whether the observer uses the events. If `false`, a structure may omit all events.
     const ACTIVE: bool = true;
 
     /// The traversal enters an inner node.

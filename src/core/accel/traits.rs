@@ -41,8 +41,8 @@ pub enum BuildError {
 /// 1. `closest_hit` returns the hit with the smallest `t` in [max(`t_min`, 0), `t_max`). Degenerate triangles have no
 ///    hits. The structure's triangle test defines `t`. A hit whose `t` rounds to infinity does not count. The returned
 ///    `t` may equal `t_max` after rounding.
-/// 2. If several triangles are hit at the smallest `t`, `closest_hit` may return any of these triangles. The structures
-///    of this crate, except the module `external`, return the triangle with the lowest index.
+/// 2. If several triangles are hit at the smallest `t`, `closest_hit` may return any of these triangles. Outside the
+///    module `external`, the structures of this crate return the triangle with the lowest index.
 /// 3. `any_hit(ray) == closest_hit(ray).is_some()`.
 /// 4. Results depend only on the mesh, the configuration and the ray.
 /// 5. `build` accepts the empty mesh.
@@ -116,7 +116,8 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
     /// Loads a batch of rays for many queries. The time of `load` is not measured.
     ///
-    /// An adapter converts the rays to the ray type of a library here. The loaded data must not depend on the tree.
+    /// For example, an adapter may convert the rays to the ray type of a library. The loaded data must not depend on
+    /// the tree.
     fn load<'a>(&'a self, rays: Cow<'a, [Ray]>) -> Box<dyn Loaded + 'a> {
         Box::new(RayBatch { accel: self, rays })
     }
@@ -130,9 +131,9 @@ pub trait Accel: Sized + Send + Sync + 'static {
 
 /// Type-erased [`Accel`], with one virtual call per batch.
 pub trait DynAccel: Send + Sync {
-    /// See [`Accel::closest_hits`], without an observer.
+    /// [`Accel::closest_hits`] without an observer.
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
-    /// See [`Accel::any_hits`], without an observer.
+    /// [`Accel::any_hits`] without an observer.
     fn any_hits(&self, rays: &[Ray], hits: &mut [bool]);
     /// The closest hit of each ray.
     fn closest(&self, rays: &[Ray]) -> Vec<Option<Hit>> {

@@ -1,20 +1,20 @@
-//! The binary tree from which an eight-wide tree is collapsed.
+//! The binary tree that is collapsed into an eight-wide tree.
 
 use crate::geometry::Aabb;
 
-/// Nodes are in depth-first order, with the subtree of the first child before the subtree of the second. A subtree is
-/// therefore a range of nodes and a range of references. A tree without triangles has no nodes.
+/// Nodes are in depth-first order. The subtree of the first child comes before the subtree of the second child. A tree
+/// without triangles has no nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BinaryTree {
     pub nodes: Vec<BinaryNode>,
-    /// The triangle numbers of all leaves, in the order of the leaves.
+    /// Triangle numbers, in the order of the leaves.
     pub references: Vec<u32>,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BinaryNode {
-    /// A box around the references of the node, rounded outward. A cut triangle contributes only its part in the node.
-    /// The box is not empty in a finished tree.
+    /// A box around the node's triangles or their clipped parts, rounded outward. The box is not empty in a finished
+    /// tree.
     pub bounds: Aabb,
     pub content: Content,
 }

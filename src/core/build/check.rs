@@ -1,4 +1,4 @@
-//! Meshes and checks of invariants for the tests of all tree builders.
+//! Meshes and checks for the tests of the tree builders.
 
 use std::fmt::Debug;
 
@@ -32,12 +32,12 @@ pub fn soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 50, 0.1)
 }
 
-/// Like [`soup`], with more large triangles, which planes cut.
+/// Like [`soup`], with more large triangles.
 pub fn straddling_soup(count: usize, seed: u64) -> Mesh {
     mixed(count, seed, 10, 0.2)
 }
 
-/// Triangles of size `small`; one in `every` triangles is large.
+/// Triangles whose index is a multiple of `every` are large.
 fn mixed(count: usize, seed: u64, every: usize, small: f32) -> Mesh {
     let mut rng = Pcg32::seed_from_u64(seed);
     mesh(count, |i| {
@@ -46,7 +46,7 @@ fn mixed(count: usize, seed: u64, every: usize, small: f32) -> Mesh {
     })
 }
 
-/// All needles pass near the origin, so a plane near the origin cuts almost all of them.
+/// A plane near the origin cuts almost all needles.
 pub fn needles(count: usize, seed: u64) -> Mesh {
     let mut rng = Pcg32::seed_from_u64(seed);
     mesh(count, |_| {
@@ -55,7 +55,7 @@ pub fn needles(count: usize, seed: u64) -> Mesh {
     })
 }
 
-/// Axis-aligned planes of right triangles, like the walls and floors of buildings.
+/// Axis-aligned walls of right triangles.
 pub fn room(cells: usize) -> Mesh {
     let mut corners = vec![];
     for axis in 0..3 {
@@ -86,12 +86,12 @@ pub fn holds(bounds: &Aabb, point: DVec3) -> bool {
     bounds.min.as_dvec3().cmple(point).all() && bounds.max.as_dvec3().cmpge(point).all()
 }
 
-/// Returns the boxes and references of all leaves. Checks the invariants of the tree, with at most `most` references
-/// per leaf.
+/// Returns the boxes and references of all leaves. Checks the invariants of the tree. A leaf may have at most `most`
+/// references.
 pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     let mut found = vec![];
     let mut next = 0;
-    // The nodes that must follow in depth-first order, with the next node on top.
+    // The pending nodes in depth-first order. The next node is on top.
     let mut stack = if tree.nodes.is_empty() { vec![] } else { vec![0] };
     for (at, node) in tree.nodes.iter().enumerate() {
         assert_eq!(stack.pop(), Some(at as u32), "nodes are in depth-first order");
@@ -116,7 +116,7 @@ pub fn leaves(tree: &BinaryTree, most: u32) -> Vec<(Aabb, &[u32])> {
     found
 }
 
-/// Checks that random points of every triangle lie in leaves that reference the triangle.
+/// Each random point of a triangle must lie in a leaf with a reference to the triangle.
 pub fn covers(tree: &BinaryTree, mesh: &Mesh, seed: u64) {
     let mut of = vec![vec![]; mesh.len()];
     for (bounds, ids) in leaves(tree, u32::MAX) {
@@ -132,7 +132,7 @@ pub fn covers(tree: &BinaryTree, mesh: &Mesh, seed: u64) {
     }
 }
 
-/// Leaves may touch, but have no volume in common.
+/// Checks that no two leaf boxes have common volume.
 pub fn disjoint(leaves: &[(Aabb, &[u32])]) {
     for (i, (a, _)) in leaves.iter().enumerate() {
         for (b, _) in &leaves[..i] {

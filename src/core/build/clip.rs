@@ -1,4 +1,4 @@
-//! Boxes of the parts of triangles in cells, for "perfect" splits (Wald, Havran 2006).
+//! Clips triangles to cells and boxes, for "perfect" splits (Wald, Havran 2006).
 
 use glam::{DVec3, Vec3};
 
@@ -7,25 +7,24 @@ use crate::geometry::{Aabb, round_down, round_up};
 /// Maximum number of corners after six planes have cut a triangle.
 const CORNERS: usize = 9;
 
-/// Bound on the error of a coordinate of a computed corner, as a multiple of M. M is the largest absolute coordinate of
-/// the triangle on the axis. The interpolation a + (b - a) w, w = (s - a) / (b - a), rounds six times. Five errors are
-/// at most two units of 2^-53 M. The last error is at most one unit. At most seven interpolations in a row give 77
-/// units.
+/// Bound on the error of a computed corner coordinate, as a multiple of M. M is the largest absolute coordinate of the
+/// triangle on the axis. The interpolation in `kept` has six rounded operations. Each of the first five operations adds
+/// an error of at most 2 units of 2^-53 M. The final addition adds at most 1 unit. One interpolation therefore adds at
+/// most 11 units. At most seven planes clip a triangle. The total error is therefore at most 77 units.
 ///
-/// Clipping moves each plane outward by this bound. A point of the triangle in the cell therefore stays in the polygon,
-/// within the error of the corners.
+/// Clipping moves each plane outward by this bound.
 const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 
-/// A box around the part of a triangle in `cell`, rounded outward. `known` is a box of the triangle's part in a larger
+/// A box around the triangle's part in `cell`, rounded outward. `known` is a box around the triangle's part in a larger
 /// cell. The result lies in `cell` and in `known`.
 ///
-/// Clips in f64 (Sutherland, Hodgman 1974). If rounding leaves an empty box, the result is the intersection of `known`
-/// and `cell`. A triangle that reaches into the cell is therefore never dropped.
+/// Clips in f64 (Sutherland, Hodgman 1974). If the clipped box is empty, the result is the intersection of `known` and
+/// `cell`.
 pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
     Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
 }
 
-/// Like [`clipped_bounds`], for the halves of `bounds` below and above a plane. `bounds` is a box around the triangle's
+/// Like [`clipped_bounds`], for the parts of `bounds` below and above a plane. `bounds` is a box around the triangle's
 /// part in some cell. The plane must cut the interior of `bounds`.
 pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: f32) -> (Aabb, Aabb) {
     let polygon = Polygon::clipped(corners, bounds);
@@ -38,7 +37,7 @@ pub(crate) fn cut_bounds(corners: [Vec3; 3], bounds: &Aabb, axis: usize, plane: 
     (half(below, -1.0), half(above, 1.0))
 }
 
-/// A convex polygon. The flag of a corner is `true` if the corner is computed and therefore rounded.
+/// A convex polygon. The flag of a corner is `true` for a computed corner.
 struct Polygon {
     corners: [(DVec3, bool); CORNERS],
     len: usize,
@@ -76,7 +75,7 @@ impl Polygon {
         corner_box
     }
 
-    /// Keeps the part above the plane (`side` 1.0) or below it (`side` -1.0), with a margin of `slack`.
+    /// Keeps the part above (`side` 1.0) or below (`side` -1.0) the plane, with a margin of `slack`.
     fn keep(&mut self, axis: usize, plane: f64, side: f64) {
         let bound = plane - side * self.slack[axis];
         if self.corners().all(|(p, _)| side * (p[axis] - bound) >= 0.0) {
@@ -102,7 +101,7 @@ impl Polygon {
                 visit(p, computed);
             }
             if inside(p) != inside(q) {
-                // Interpolate from the inner end, so both directions of an edge give the same point.
+                // Interpolate from the inside corner. Both directions of an edge then give the same point.
                 let (a, b) = if inside(p) { (p, q) } else { (q, p) };
                 let mut crossing = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
                 crossing[axis] = plane;
@@ -202,7 +201,7 @@ mod tests {
         assert!(touched.contains(&Aabb::of_points([Vec3::ZERO])), "{touched:?}");
     }
 
-    /// Planes close to 0 cut triangles with large coordinates. A corner's error exceeds the distance of a plane from 0.
+    /// The triangles have large coordinates. The planes have coordinates close to 0.
     #[test]
     fn clipping_keeps_every_point_of_edges_near_planes() {
         use std::cmp::Ordering::{Equal, Greater, Less};
@@ -219,7 +218,7 @@ mod tests {
             }
             let corners = [middle - reach[0], middle + reach[0] - reach[1] * 0.5, middle + reach[1]];
 
-            // The hit of a ray along an axis is known exactly, because only one coordinate depends on `t`.
+            // The ray is parallel to an axis, so only one coordinate of the hit depends on `t`.
             let along = (rng.next_u32() % 3) as usize;
             let (mut origin, mut direction) = (point(&mut rng) * SMALL, Vec3::ZERO);
             (origin[along], direction[along]) = (0.0, 1.0);

@@ -6,12 +6,12 @@ use super::reference::{CHUNK, PARALLEL, Reference};
 pub(crate) struct Cut {
     pub axis: usize,
     pub plane: f32,
-    /// Whether references in the plane go below. Otherwise they go above.
+    /// Whether references in the plane belong to the side below the plane.
     pub flat_below: bool,
 }
 
 impl Cut {
-    /// Whether a reference has a part below the plane, and whether it has a part above.
+    /// Whether the reference belongs to each side of the plane, as `[below, above]`.
     #[inline(always)]
     pub fn sides(&self, reference: &Reference) -> [bool; 2] {
         let (low, high) = (reference.min(self.axis), reference.max(self.axis));

@@ -52,7 +52,7 @@ impl Extent {
         self
     }
 
-    /// Half of the surface area, in `f64` to avoid overflow. A negative edge counts as 0.
+    /// Half of the surface area, in `f64` to avoid overflow. A negative edge length counts as 0.
     #[inline(always)]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())

@@ -2,12 +2,12 @@
 
 use super::reference::Reference;
 
-/// Divides references into two groups by the centres of their boxes on an axis.
+/// Divides references into two groups by box centres on one axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Group {
     /// The first group has the references in the bins `0..=last`.
     Bins { bins: Bins, last: usize },
-    /// The first group has the first `count` references in ascending order of centres.
+    /// The first group has the `count` references with the lowest centres.
     First { axis: usize, count: usize },
 }
 
@@ -34,8 +34,8 @@ impl Bins {
     }
 }
 
-/// Halves the references by centres, on the axis where the centres vary most. The first group fills whole blocks if the
-/// second group stays nonempty.
+/// Halves the references by centre, on the axis with the widest range of centres. Rounds the size of the first group up
+/// to a multiple of `block`. The second group has at least one reference.
 pub(crate) fn median(references: &[Reference], block: usize) -> (Group, [usize; 2]) {
     let width = |axis| {
         let (min, max) = centres(references.iter(), axis);
@@ -51,7 +51,8 @@ pub(crate) fn centres<'a>(references: impl Iterator<Item = &'a Reference>, axis:
     references.fold((f32::INFINITY, f32::NEG_INFINITY), with)
 }
 
-/// The indices of the references in ascending order of centres; ties keep the order of the references.
+/// The indices of the references, in ascending order of centres. References with equal centres keep the input
+/// order.
 pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
     let key = |(i, r): (u32, &Reference)| u64::from(ordered_bits(r.centre(axis))) << 32 | u64::from(i);
     let mut keys: Vec<u64> = (0..).zip(references).map(key).collect();
@@ -59,10 +60,10 @@ pub(crate) fn order(references: &[Reference], axis: usize) -> Vec<u32> {
     keys.into_iter().map(|key| key as u32).collect()
 }
 
-/// Maps floats to integers in the same order. Both zeros give the same integer.
+/// An order-preserving map from floats to integers. Both zeros give the same integer.
 #[inline(always)]
 pub(crate) fn ordered_bits(x: f32) -> u32 {
-    // Adding 0.0 turns -0.0 into 0.0. The bits of negative floats descend, so flip all bits.
+    // Adding 0.0 turns -0.0 into 0.0. For negative floats, flip all bits to reverse the order.
     let bits = (x + 0.0).to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }

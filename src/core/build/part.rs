@@ -1,4 +1,4 @@
-//! Divides the references of a node at a plane or into two groups.
+//! Divides the references of a node into two parts.
 
 use rayon::prelude::*;
 
@@ -20,7 +20,7 @@ impl Part {
         Self { references, extent }
     }
 
-    /// One unclipped reference per triangle of `mesh`, without triangles of area 0.
+    /// One unclipped reference for each triangle with a nonzero area.
     pub fn whole(mesh: &Mesh) -> Self {
         let ids: Vec<u32> = mesh.solid().collect();
         let references: Vec<Reference> =
@@ -39,7 +39,7 @@ impl Part {
     }
 }
 
-/// `counts` are the expected sizes. `place` adds a reference to one part or to both parts.
+/// `counts` are the expected sizes of the parts. `place` adds a reference to one part or to both parts.
 fn deal(
     references: Vec<Reference>,
     counts: [usize; 2],
@@ -54,7 +54,7 @@ fn deal(
         return dealt(&references, counts);
     }
 
-    // Join the chunks in order, so the result does not depend on the threads.
+    // Join the chunks in order. The result then does not depend on the threads.
     let chunks: Vec<[Part; 2]> = references.par_chunks(CHUNK).map(|chunk| dealt(chunk, [CHUNK / 2; 2])).collect();
     drop(references);
     let (below, above): (Vec<Part>, Vec<Part>) = chunks.into_iter().map(|[below, above]| (below, above)).unzip();

@@ -5,9 +5,9 @@ use super::sample::Sample;
 /// Maximum number of planes, including both ends of the range. For a power of two, `i % PLANES` compiles to a mask.
 pub(crate) const PLANES: usize = 64;
 
-/// Candidate planes in ascending order, one in each cell of a uniform grid. The planes of the first and the last cell
+/// Candidate planes in ascending order, one for each cell of a uniform grid. The planes of the first and the last cell
 /// are the ends of the range. The plane of an inner cell lies at the highest box edge in the cell. A plane at a box
-/// edge does not cut the box. If an inner cell has no box edge, the plane is the middle of the cell.
+/// edge does not cut the box. If an inner cell has no box edge, the plane lies in the middle of the cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes {
     pub axis: usize,

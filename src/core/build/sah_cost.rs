@@ -39,8 +39,8 @@ impl CostModel {
         area * self.block * count.div_ceil(BLOCK) as f64
     }
 
-    /// Cost of a subtree, multiplied by the half area of the subtree's box. `children` is the sum of the products for
-    /// both child subtrees.
+    /// Cost of a subtree, multiplied by the half area of the subtree's box. `children` is the sum of the results of
+    /// `box_leaf` or `box_node` for both children.
     #[inline(always)]
     pub fn box_node(&self, area: f64, children: f64) -> f64 {
         self.step * area + children

@@ -1,12 +1,12 @@
-//! Boxes of the slices of a triangle between parallel planes. The boxes are not rounded outward, because only costs use
-//! them.
+//! Boxes of the slices of a triangle between parallel planes. The boxes are not rounded outward. Use the boxes only to
+//! estimate costs.
 
 use glam::Vec3A;
 
 use super::extent::Extent;
 use super::planes::Planes;
 
-/// A triangle with its corners in ascending order on an axis.
+/// A triangle with corners in ascending order along `AXIS`.
 struct Slicer<const AXIS: usize> {
     corners: [Vec3A; 3],
     inverse: [f32; 3],
@@ -35,7 +35,7 @@ impl<const AXIS: usize> Slicer<AXIS> {
         Self { corners: [a, b, c], inverse: [inverse(a, b), inverse(b, c), inverse(a, c)] }
     }
 
-    /// `x` must lie between the outer corners.
+    /// `x` must lie in the range of the corners along `AXIS`.
     #[inline(always)]
     fn section(&self, x: f32) -> Extent {
         let [a, b, c] = self.corners;
@@ -47,7 +47,7 @@ impl<const AXIS: usize> Slicer<AXIS> {
     }
 }
 
-/// Calls `grow` with each bin and the box of its slice, clipped to `part`.
+/// Calls `grow` for each bin, with the box of the slice in this bin. Each box is clipped to `part`.
 #[inline(always)]
 pub(super) fn slice<const AXIS: usize>(
     corners: [Vec3A; 3],

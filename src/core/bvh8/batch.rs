@@ -13,10 +13,10 @@ use crate::traversal::leaf::Nearest;
 use crate::traversal::walk::{single, walk_without_observer};
 use crate::triangle::{Depth, INPUTS, TriangleTest, last_bits};
 
-/// Rays are traced in large windows, because few interleaved rays are active at the end of a window.
+/// Maximum number of rays in a window. Small windows make interleaving less effective.
 const WINDOW: usize = 4096;
 
-/// A subset of the groups of `RAYS` rays of a window, in ascending order.
+/// Some groups of a window, in ascending order. A group has at most `RAYS` consecutive rays.
 pub(super) struct Groups {
     numbers: [u8; WINDOW / RAYS],
     len: usize,
@@ -38,7 +38,7 @@ impl Groups {
         self.len += 1;
     }
 
-    /// For each group, the range of the indices of its rays in a window of `rays` rays.
+    /// The range of ray indices of each group. `rays` is the number of rays in the window.
     #[inline(always)]
     fn places(&self, rays: usize) -> impl Iterator<Item = Range<usize>> {
         let first = |&number: &u8| usize::from(number) * RAYS;
@@ -109,7 +109,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     fn run<L: EightLanes>(self) {
         let Self { tree, rays, answers, convert, level } = self;
         if ANY || !T::Depth::LATE || !L::FAST {
-            // A batch saves time only if `t` is computed after the search, on SIMD lanes.
+            // A `HitBatch` saves no time here.
             for (answer, ray) in answers.iter_mut().zip(rays) {
                 *answer = convert(walk_without_observer::<ANY, L, _>(tree, ray));
             }
@@ -133,7 +133,7 @@ impl<const ANY: bool, T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for In
     }
 }
 
-/// Traces the groups of a window that form packets, and returns the other groups.
+/// Traces the groups that form packets. Returns the other groups.
 struct InPackets<'a, const ANY: bool, T: TriangleTest, A, F> {
     tree: &'a Bvh8<T>,
     rays: &'a [Ray],
@@ -179,7 +179,7 @@ impl<T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Interleaved<'_, T, 
     fn run<L: EightLanes>(self) {
         let Self { tree, rays, which, answers, convert } = self;
         if !L::FAST {
-            // Interleaving hides the latency of memory, but portable lanes are limited by arithmetic.
+            // Interleaving saves no time without vector instructions.
             for i in which.places(rays.len()).flatten() {
                 answers[i] = convert(walk_without_observer::<false, L, _>(tree, &rays[i]));
             }
@@ -191,7 +191,7 @@ impl<T: TriangleTest, A, F: Fn(Option<Hit>) -> A> Kernel for Interleaved<'_, T, 
     }
 }
 
-/// A quick test that rejects most groups of rays that do not share an octant.
+/// Returns false for most groups with directions in different octants.
 #[inline(always)]
 fn may_share_octant(rays: &[Ray; RAYS]) -> bool {
     let signs = |i: usize| each(&rays[i].direction.to_array(), |x| x.to_bits());
@@ -225,7 +225,7 @@ pub(super) fn answer<const ANY: bool, T: TriangleTest, A, O: Observer>(
     }
 }
 
-/// Interleaving is faster only for closest hits in large trees.
+/// Interleaving is faster only for closest-hit queries on large trees.
 fn trace_single_rays<const ANY: bool, T: TriangleTest, A>(
     level: Level,
     tree: &Bvh8<T>,

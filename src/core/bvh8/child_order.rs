@@ -3,10 +3,11 @@
 use super::collapse::Collapse;
 
 impl Collapse<'_> {
-    /// For each octant, the visiting order of the parts of `at`. The second result is the length of an order in bits.
+    /// For each octant of directions, the visiting order of the parts of `at`. The second result is the length of an
+    /// order in bits.
     ///
-    /// An order has three bits per lane; the lane that is visited last is lowest. `lanes` yields the lane of each part,
-    /// in the order of `gather`.
+    /// An order has three bits per lane. The lowest three bits contain the lane that is visited last. `lanes` yields
+    /// the lane of each part, in the order of `Collapse::gather`.
     pub(super) fn orders<'b>(
         &self,
         at: u32,
@@ -29,8 +30,8 @@ impl Collapse<'_> {
         (std::array::from_fn(order), left_bits + right_bits)
     }
 
-    /// The axis on which the boxes of `l` and `r` are furthest apart. The flag is true if `r` comes before `l` on this
-    /// axis.
+    /// The axis on which the boxes of `l` and `r` are furthest apart. The flag is true if `r` has the smaller
+    /// coordinates on this axis.
     fn apart(&self, l: u32, r: u32) -> (usize, bool) {
         let [l, r] = [l, r].map(|at| &self.tree.nodes[at as usize].bounds);
         let (up, down) = (r.min - l.max, l.min - r.max);

@@ -8,12 +8,12 @@ use crate::build::binary_tree::{BinaryTree, Content};
 use crate::build::sah_cost::CostModel;
 use crate::geometry::Aabb;
 
-/// Maximum number of blocks of a leaf that is merged from several leaves.
+/// Maximum number of blocks in a leaf that is merged from several leaves.
 const MAX_MERGED_BLOCKS: usize = 8;
 
 const PARALLEL: usize = 2048;
 
-/// The cheapest divisions of each subtree of a binary tree into at most 1, 2, ... 7 [`Part`]s.
+/// For each binary subtree, the cheapest division into a limited number of [`Part`]s.
 pub(super) struct Collapse<'a> {
     pub(super) tree: &'a BinaryTree,
     best: Vec<Best>,
@@ -23,13 +23,13 @@ pub(super) struct Collapse<'a> {
 struct Best {
     /// `cost[i]`: the cost of the subtree if it is divided into at most `i + 1` parts.
     cost: [f32; WIDTH - 1],
-    /// `left[i]`: how many of `i + 1` parts the first child gets. The number is 0 if a division into at most `i` parts
-    /// costs no more. `left[WIDTH - 1]` applies if this node becomes a wide node.
+    /// `left[i]`: how many of `i + 1` parts the left child gets. The value is 0 if fewer parts cost no more.
+    /// `left[WIDTH - 1]` is used only if the node becomes a wide node.
     left: [u8; WIDTH],
     /// Whether the node becomes a leaf if it is a single part.
     leaf: bool,
     references: [u32; 2],
-    /// A lower bound of the number of distinct triangles below the node.
+    /// A lower bound for the number of distinct triangles below the node.
     triangles: u32,
 }
 
@@ -40,7 +40,7 @@ impl Best {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Node(u32),
-    /// All triangles below the binary node become a leaf.
+    /// All triangles below the binary node become one leaf.
     Leaf(u32),
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Children {
 }
 
 impl Children {
-    /// The parts in the order of their lanes, which are the last lanes of the node.
+    /// The parts in the order of their lanes. Parts occupy the highest lanes of the node.
     pub fn parts(&self) -> &[Part] {
         &self.parts[..self.len]
     }
@@ -61,12 +61,12 @@ impl Children {
 struct Chooser<'a> {
     tree: &'a BinaryTree,
     costs: &'a CostModel,
-    /// Costs are divided by the half area of the root. So they fit an `f32` in any unit of length.
+    /// The half area of the root. Relative to this area, costs fit an `f32`.
     whole: f64,
 }
 
 impl Chooser<'_> {
-    /// `best` contains the nodes of the subtree at `at`, in depth-first order.
+    /// `best` has one entry per node of the subtree at `at`, in depth-first order.
     fn choose(&self, at: usize, best: &mut [Best], ids: &mut Vec<u32>) {
         let node = &self.tree.nodes[at];
         let area = node.bounds.half_area() / self.whole;
@@ -117,7 +117,7 @@ impl Chooser<'_> {
         best
     }
 
-    /// Returns infinity if the leaf has too many triangles. May return infinity if the leaf costs more than `limit`.
+    /// Returns infinity if the leaf is too large. May return infinity if the leaf costs more than `limit`.
     fn merged(&self, area: f64, limit: f32, best: &mut Best, ids: &mut Vec<u32>) -> f32 {
         let most = (MAX_MERGED_BLOCKS * WIDTH) as u32;
         let [first, end] = best.references;
@@ -144,7 +144,7 @@ impl<'a> Collapse<'a> {
         if let Some(root) = tree.nodes.first() {
             let whole = Some(root.bounds.half_area()).filter(|&whole| whole > 0.0).unwrap_or(1.0);
             Chooser { tree, costs, whole }.choose(0, &mut best, &mut vec![]);
-            // Even a single leaf gets a node above it. So rays that miss the box of the leaf test no triangle.
+            // The root becomes a wide node even if the binary tree is a single leaf.
             best[0].leaf = false;
         }
         Self { tree, best }
@@ -164,11 +164,12 @@ impl<'a> Collapse<'a> {
     pub fn children(&self, at: u32) -> Children {
         let (mut found, mut len) = ([Part::Leaf(0); WIDTH], 0);
         self.gather(at, WIDTH, &mut |part| {
-            // In a tree of one leaf, the root is its own only part. Storing the part as a leaf ends the recursion.
+            // In a tree of one leaf, `gather` visits node `at` itself. As a `Part::Node`, `at` would be its own child.
             found[len] = if part == Part::Node(at) { Part::Leaf(at) } else { part };
             len += 1;
         });
-        // Any-hit queries visit the last lanes first: leaves before nodes, and large boxes before small boxes.
+        // Any-hit queries begin at the highest lane. Leaves get higher lanes than nodes. Among leaves, and among nodes,
+        // larger boxes get higher lanes.
         let keys = found.map(|part| (matches!(part, Part::Leaf(_)), self.bounds(part).half_area()));
         let mut places: [usize; WIDTH] = std::array::from_fn(|place| place);
         places[..len].sort_by(|&a, &b| keys[a].0.cmp(&keys[b].0).then(keys[a].1.total_cmp(&keys[b].1)));
@@ -185,7 +186,8 @@ impl<'a> Collapse<'a> {
         if self.best[at as usize].leaf { Part::Leaf(at) } else { Part::Node(at) }
     }
 
-    /// Both children of `at`, each with its number of parts, at most `parts` in total. `None` if `at` is a single part.
+    /// Both children of `at`, each with its number of parts. The sum of the two numbers is at most `parts`. `None` if
+    /// `at` is a single part.
     pub(super) fn divided(&self, at: u32, parts: usize) -> Option<[(u32, usize); 2]> {
         let left = |parts: usize| (parts, self.best[at as usize].left[parts - 1] as usize);
         let (parts, left) = (1..=parts).rev().map(left).find(|&(_, left)| left > 0)?;

@@ -21,7 +21,8 @@ pub struct Bvh8Config {
     pub block_cost: f32,
     /// Maximum mean number of references per triangle. Must be at least 1. [`Quality::Fast`] uses at most 1.75.
     pub duplication: f32,
-    /// How a slice of rays is traced. Must be [`Batch::Single`] if the test is not [`BATCHED`](TriangleTest::BATCHED).
+    /// How a slice of rays is traced. Must be [`Batch::Single`] if the triangle test is not
+    /// [`BATCHED`](TriangleTest::BATCHED).
     pub batch: Batch,
 }
 
@@ -33,7 +34,7 @@ pub enum Partition {
     Cells,
     /// Spatial splits only, with the heuristic computed on tight boxes.
     Tight,
-    /// Spatial or object splits, whichever is cheaper: an SBVH (Stich, Friedrich, Dietrich 2009).
+    /// Spatial and object splits: an SBVH (Stich, Friedrich, Dietrich 2009).
     Hybrid,
     /// Object splits only: a BVH without duplicated references.
     Objects,
@@ -45,8 +46,8 @@ pub enum Partition {
 pub enum Batch {
     /// One ray after the other.
     Single,
-    /// Sixteen consecutive rays with directions in one octant may form a packet. On trees of more than 2 MiB,
-    /// closest-hit queries may interleave the rays that form no packet, up to eight at a time.
+    /// Sixteen consecutive rays with directions in one octant may form a packet. In trees larger than 2 MiB,
+    /// closest-hit queries may interleave rays that form no packet. At most eight rays are interleaved at a time.
     Packets,
 }
 
@@ -67,7 +68,6 @@ impl Bvh8Config {
     }
 
     pub(super) fn partition(&self, mesh: &Mesh) -> BinaryTree {
-        // Trees without object splits gain less from reinsertion.
         let passes = match (self.quality, self.partition) {
             (Quality::Fast, Partition::Objects) => 2,
             (Quality::Fast, _) => 0,
@@ -75,7 +75,6 @@ impl Bvh8Config {
             (Quality::Balanced, _) => 3,
             (Quality::High, _) => 8,
         };
-        // A fast build creates fewer references, because most of its time is spent on references.
         let duplication = if self.quality == Quality::Fast { self.duplication.min(1.75) } else { self.duplication };
         let boxes = |splits| sbvh::build(mesh, &SbvhConfig { duplication, ..SbvhConfig::new(splits, self.quality) });
         let tree = match self.partition {

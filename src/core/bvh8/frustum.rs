@@ -7,15 +7,15 @@ use crate::simd::{Lanes, each};
 
 /// Bounds of the parameters at which the rays of a packet cross the planes of boxes.
 ///
-/// **A box is rejected only if every ray misses it.** A ray with origin o and inverse direction i computes its crossing
-/// of a near plane p as fl(fl(p - o) i). Rounding is monotonic, so the crossing is monotonic in o and in i. So the
-/// least crossing is at ends of the ranges of o and i. The sign of the direction determines the end of the range of o.
-/// The least crossing is a lower bound for all rays. The far crossings have a similar upper bound. If the lower bound
-/// exceeds the upper bound, every ray misses the box.
+/// **A box is rejected only if every ray misses the box.** A ray has origin o and inverse direction i. The crossing of
+/// a near plane p is computed as fl(fl(p - o) * i), where fl rounds to `f32`. Rounding is monotonic, so the crossing is
+/// monotonic in o and in i. Extremes of o and i therefore give a lower bound of all near crossings. In the same way,
+/// extremes give an upper bound of all far crossings. If the lower bound exceeds the upper bound, every ray misses the
+/// box.
 pub(super) struct Frustum<L> {
     near_origin: [L; 3],
     far_origin: [L; 3],
-    /// By axis, the least and the greatest inverse.
+    /// For each axis, the least and the greatest inverse direction.
     inverse: [[L; 2]; 3],
     enlarged: [[L; 2]; 3],
     t_min: L,

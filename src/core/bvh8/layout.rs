@@ -20,7 +20,7 @@ pub(super) struct Layout<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Layout<T> {
-    /// The tree does not depend on `most`.
+    /// `most` affects only the order of the nodes and blocks.
     pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
         let Some(root) = collapse.root() else {
             return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });
@@ -76,18 +76,19 @@ struct Piece<'a, T: TriangleTest> {
     collapse: &'a Collapse<'a>,
     nodes: Vec<Node>,
     blocks: Vec<LeafBlock<T>>,
-    /// Number of nodes on the longest path from the root.
+    /// Number of nodes on the longest path from the root of the tree into this piece.
     depth: usize,
-    /// Subtrees with at most this many references are left to other threads.
+    /// Subtrees with at most this many references are added to `cuts`.
     cut: usize,
     cuts: Vec<DeferredSubtree>,
 }
 
-/// A subtree that another thread writes, with `depth` nodes above it.
+/// A subtree that a separate [`Piece`] writes.
 struct DeferredSubtree {
     part: Part,
     parent: usize,
     lane: usize,
+    /// Number of nodes above the subtree.
     depth: usize,
 }
 

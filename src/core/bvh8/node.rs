@@ -23,8 +23,8 @@ impl Limits {
     pub const OF_NODES: Self =
         Self { levels: DEPTH, nodes: Child::LARGEST, blocks: Child::LARGEST, binary: u32::MAX as usize };
 
-    /// The binary tree has at most `duplication` references per triangle on average. It has fewer than two nodes per
-    /// reference.
+    /// The binary tree has at most `duplication` references per triangle on average. A binary tree has fewer than two
+    /// nodes per reference.
     pub fn admit(&self, triangles: usize, duplication: f32) -> Result<(), BuildError> {
         let most = 2.0 * f64::from(duplication) * triangles as f64;
         if most <= self.binary as f64 {
@@ -52,20 +52,20 @@ impl Limits {
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// `planes[axis][side][lane]`: the lower (0) and the upper (1) planes of the boxes.
+    /// The index is `[axis][side][lane]`. Side 0 is the lower plane of a box. Side 1 is the upper plane.
     pub planes: [[[f32; WIDTH]; 2]; 3],
     pub children: [Child; WIDTH],
-    /// For each octant of directions, the order in which rays visit the lanes. Bits 0, 1 and 2 of an octant are set for
-    /// a negative x, y and z.
+    /// For each octant of directions, the order in which closest-hit queries visit the lanes. Bit `axis` of an octant
+    /// is set if directions are negative on this axis.
     ///
-    /// An order has three bits per lane. The lowest bits are the lane that is visited last. Unused lanes are visited
-    /// last.
+    /// An order has three bits per lane. The lowest three bits contain the lane that is visited last. Unused lanes come
+    /// after all used lanes.
     pub orders: [u32; 8],
 }
 
 const _: () = assert!(size_of::<Node>() == 256);
 
-/// A node by its index, or a leaf by its first block and its number of blocks.
+/// Identifies a node by its index, or a leaf by its first block and number of blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
 pub(super) struct Child(u32);
@@ -77,10 +77,10 @@ impl Child {
     /// Maximum number of nodes, and of blocks, in a tree.
     pub const LARGEST: usize = 1 << (31 - Self::COUNT_BITS);
 
-    /// A leaf without triangles: the content of an unused lane, and the root of an empty tree.
+    /// A leaf without triangles, for unused lanes and for the root of an empty tree.
     pub const NOTHING: Self = Self(Self::LEAF);
 
-    /// A leaf without triangles that no node contains: it marks the bottom of a stack.
+    /// An empty leaf that marks the bottom of a stack. No node contains this leaf.
     pub const BOTTOM: Self = Self(Self::LEAF | 1 << Self::COUNT_BITS);
 
     pub fn node(at: usize) -> Self {
@@ -98,7 +98,7 @@ impl Child {
         self.0 & Self::LEAF != 0
     }
 
-    /// The first block of a leaf and the number of its blocks.
+    /// The first block and the number of blocks of a leaf.
     #[inline(always)]
     pub fn blocks(self) -> Option<(usize, usize)> {
         self.is_leaf().then_some(self.leaf_blocks())
@@ -111,7 +111,7 @@ impl Child {
         (first as usize, (self.0 & Self::BLOCKS as u32) as usize)
     }
 
-    /// This child after its subtree has been appended to `nodes` nodes and `blocks` blocks.
+    /// Adds `nodes` to the index of a node, or adds `blocks` to the first block of a leaf.
     pub fn moved(self, nodes: usize, blocks: usize) -> Self {
         match self.blocks() {
             None => Self::node(self.index() + nodes),
@@ -133,7 +133,7 @@ impl Child {
 }
 
 impl Node {
-    /// Only rays with three NaN inverses meet the boxes of this node. These rays find empty leaves.
+    /// A ray meets these boxes only if its inverse direction is NaN on all axes. Such a ray finds empty leaves.
     pub const EMPTY: Self = Self {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         children: [Child::NOTHING; WIDTH],

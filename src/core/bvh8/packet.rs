@@ -1,8 +1,7 @@
 //! Traces sixteen rays as a packet.
 //!
-//! **A packet finds the same hits as single rays.** The rays of a packet share an octant, so one visiting order serves
-//! all rays. [`Frustum`] rejects only boxes that every ray misses. So each ray visits at least the leaves that a single
-//! ray visits. The nearest hit does not depend on the order in which hits are found.
+//! **Packets and single rays find the same hits.** [`Frustum`] rejects only boxes that every ray misses. The
+//! nearest hit does not depend on the order in which hits are found.
 
 use std::mem::MaybeUninit;
 
@@ -17,13 +16,13 @@ use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Level};
 use crate::triangle::TriangleTest;
 
-/// Maximum number of rays that search a subtree one by one instead of as a packet.
+/// If at most this many rays visit a subtree, the rays search the subtree one by one.
 const MAX_RAYS_ONE_BY_ONE: u32 = 3;
 
-/// The lanes in ascending order, three bits per lane, lane 0 lowest.
+/// All lanes, with three bits per lane. Lane 0 is in the lowest three bits.
 const IN_LANES: u32 = 0o76543210;
 
-/// The box of `child` is in `lane` of the node `parent`. The bits of `rays` are the rays that may visit `child`.
+/// The box of `child` is in `lane` of the node `parent`. Bit `i` of `rays` is set if ray `i` may visit `child`.
 #[derive(Clone, Copy)]
 struct Entry {
     child: Child,
@@ -50,15 +49,15 @@ impl<T: TriangleTest> Bvh8<T> {
         let (mut child, mut active) = (self.root, u16::MAX);
         loop {
             if let Some((first, count)) = child.blocks() {
-                // SAFETY: a leaf names a range of `blocks` (invariants of `Bvh8`).
+                // SAFETY: a leaf refers to a range of `blocks` (invariants of `Bvh8`).
                 let blocks = unsafe { self.blocks.get_unchecked(first..first + count) };
                 state.search::<ANY, L>(first, blocks, active, &mut packet);
             } else if active.count_ones() <= MAX_RAYS_ONE_BY_ONE {
                 self.one_by_one::<ANY, L>(child, active, &mut packet, &mut state);
             } else {
-                // SAFETY: a child that is not a leaf names one of `nodes` (invariants of `Bvh8`). A path has at most
-                // `DEPTH` nodes (invariants of `Bvh8`). Each node above has left at most seven entries, so eight more
-                // fit in `SIZE`.
+                // SAFETY: a child that is not a leaf is an index into `nodes` (invariants of `Bvh8`). A path has at
+                // most `DEPTH` nodes (invariants of `Bvh8`). Each earlier node of the path has at most seven entries
+                // on the stack. So the stack has space for eight more entries (see `SIZE`).
                 unsafe {
                     let node = self.nodes.get_unchecked(child.index());
                     let met = frustum.meet(node);
@@ -82,7 +81,7 @@ impl<T: TriangleTest> Bvh8<T> {
                     return true;
                 }
                 len -= 1;
-                // SAFETY: entries are written before `len` counts them. The `parent` of an entry is a node.
+                // SAFETY: all entries below `len` are written. The `parent` of an entry is an index into `nodes`.
                 let (entry, node) = unsafe {
                     let entry = stack.get_unchecked(len).assume_init();
                     (entry, self.nodes.get_unchecked(entry.parent as usize))
@@ -113,7 +112,7 @@ impl<T: TriangleTest> Bvh8<T> {
             let prepared_ray = packet.single(i);
             let (ray, mut nearest) = state.single(i);
             let OnePage(_, entries) = &mut OnePage::new(Entries::new());
-            // SAFETY: a stack of length 0 has no entries to read; `push` writes entries before it counts them.
+            // SAFETY: the contract of `Stack::of` allows the length 0.
             let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
             self.descend::<ANY, L, ()>(child, &mut stack, &prepared_ray, ray, &mut nearest, &mut ());
             state.put_back::<ANY, L>(i, nearest, packet);

@@ -7,18 +7,23 @@ pub(super) const RAYS: usize = 16;
 pub(super) const HALVES: usize = RAYS / WIDTH;
 
 /// A [`Nearest`] for each of sixteen rays, in structure-of-arrays layout.
+///
+/// If `T::ONE_STAGE` is true, a hit consists only of `t` and `ids`.
 pub(super) struct PacketHits<'a, T: TriangleTest> {
     blocks: &'a [LeafBlock<T>],
     t: [[f32; WIDTH]; HALVES],
-    /// Lower bounds of the `t` of the hits; infinite without a hit.
+    /// Lower bounds of the exact `t` of the hits. The field `t` contains upper bounds. Without a hit, the bound is
+    /// infinite.
     least: [[f32; WIDTH]; HALVES],
-    /// The numbers of the hit triangles; [`NONE`] without a hit.
+    /// The numbers of the hit triangles, or [`NONE`].
     ids: [[u32; WIDTH]; HALVES],
-    /// The positions of the hit triangles, 8 x block + lane; unused for the rays in `found_by_single_search`.
+    /// The positions of the hit triangles. A position is 8 * block + lane.
+    ///
+    /// Positions of the rays in `found_by_single_search` are unused.
     places: [[u32; WIDTH]; HALVES],
-    /// The depths of the hits of the rays in `found_by_single_search`.
+    /// The hit depth of each ray in `found_by_single_search`.
     depths: [Option<T::Depth<'a>>; RAYS],
-    /// The rays whose nearest hit was found by a search of a single ray, as bits.
+    /// Bit `i` is set if [`set`](Self::set) stored the nearest hit of ray `i`.
     found_by_single_search: u16,
 }
 
@@ -33,8 +38,9 @@ pub(super) struct HitLanes<L: EightLanes> {
 }
 
 impl<L: EightLanes> HitLanes<L> {
-    /// Keeps the hits of triangle `id` in `active` lanes, if they are nearer. Returns, as bits, the active
-    /// lanes in which the bounds do not decide whether the triangle is hit nearer.
+    /// In each active lane, keeps the nearer of the stored hit and the hit of triangle `id`.
+    ///
+    /// Returns the undecided active lanes as bits.
     #[inline(always)]
     pub fn offer<T: TriangleTest>(&mut self, active: L::Mask, found: &EightHits<L>, id: u32, place: u32) -> u32 {
         let id = L::splat_number(id);
@@ -62,7 +68,7 @@ impl<L: EightLanes> HitLanes<L> {
 }
 
 impl<'a, T: TriangleTest> PacketHits<'a, T> {
-    /// A hit of ray `i` must have a `t` of at most `last(i)`.
+    /// Ray `i` accepts only hits with a `t` of at most `last(i)`.
     #[inline(always)]
     pub fn until(blocks: &'a [LeafBlock<T>], last: impl Fn(usize) -> f32) -> Self {
         let mut hits = Self {
@@ -91,7 +97,7 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         Nearest { t, hit: (id != NONE).then(|| (self.depth(i), id)) }
     }
 
-    /// The ray must have a hit.
+    /// Ray `i` must have a hit.
     #[inline(always)]
     pub fn depth(&self, i: usize) -> T::Depth<'a> {
         let (half, lane) = (i / WIDTH, i % WIDTH);
@@ -125,7 +131,9 @@ impl<'a, T: TriangleTest> PacketHits<'a, T> {
         }
     }
 
-    /// Like [`offer`](Self::offer), for a depth with bounds. Returns false if the bounds do not decide the order.
+    /// Like [`offer`](Self::offer), for a depth with bounds.
+    ///
+    /// Returns false if the bounds do not decide which hit is nearer.
     #[inline(always)]
     pub fn offer_between(&mut self, i: usize, depth: &T::Depth<'_>, id: u32, place: u32) -> bool {
         let (half, lane) = (i / WIDTH, i % WIDTH);

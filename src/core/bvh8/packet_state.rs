@@ -1,4 +1,4 @@
-//! The state of each ray of a packet, and the search of a leaf by a packet.
+//! The state of the rays of a packet, and their search for hits in leaves.
 
 use std::mem::MaybeUninit;
 
@@ -10,12 +10,12 @@ use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
 use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest, last_bits};
 
-/// A leaf is searched ray by ray if fewer rays are active, because this search detects misses sooner.
+/// Minimum number of active rays for `triangle_by_triangle`.
 const MIN_RAYS_BY_TRIANGLE: u32 = 12;
 
 pub(super) struct PacketState<'a, T: TriangleTest> {
     rays: &'a [Ray; RAYS],
-    /// A ray is prepared at its first leaf, because many rays visit no leaf.
+    /// Rays are prepared on demand, because many rays visit no leaf.
     prepared: [MaybeUninit<T::Ray>; RAYS],
     ready: u16,
     nearest: PacketHits<'a, T>,
@@ -24,11 +24,11 @@ pub(super) struct PacketState<'a, T: TriangleTest> {
     pub unfinished: u16,
 }
 
-/// The lanes of a block that a ray may hit, and the values of the first stage.
+/// The candidate lanes of a block as bits, and the values of the first stage.
 type BlockCandidates<T> = (u32, <T as TriangleTest>::Values<WIDTH>);
 
 impl<'a, T: TriangleTest> PacketState<'a, T> {
-    /// Sets the ends of the rays in `packet`.
+    /// Also sets the ends of the rays in `packet`.
     #[inline(always)]
     pub fn new<L: EightLanes>(rays: &'a [Ray; RAYS], blocks: &'a [LeafBlock<T>], packet: &mut RayPacket<L>) -> Self {
         let nearest = PacketHits::until(blocks, |i| T::last(rays[i].t_max));
@@ -124,7 +124,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         }
     }
 
-    /// Returns, as bits, the rays that must search the leaf again one by one.
+    /// Returns, as bits, the rays that still need `ray_by_ray`.
     #[inline(always)]
     fn triangle_by_triangle<L: EightLanes>(
         &mut self,
@@ -171,11 +171,11 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while left != 0 {
                 let i = left.trailing_zeros() as usize % RAYS;
                 left &= left - 1;
-                // SAFETY: `prepare` above has written the rays of `active`, and `left` is a subset of `active`.
+                // SAFETY: `prepare` above has written the rays of `active`. `left` is a subset of `active`.
                 let ray = unsafe { self.prepared[i].assume_init_ref() };
                 let (candidates, first) =
                     T::candidates::<WIDTH, L>(ray, &block.triangles, self.t_min[i], self.nearest.t(i));
-                // The values of a one-stage test exist already, so store them without a branch.
+                // For a one-stage test, the values are stored without a branch.
                 if T::ONE_STAGE || candidates != 0 {
                     self.candidates[i].write((candidates, T::values(first)));
                 }
@@ -184,9 +184,9 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while met != 0 {
                 let i = met.trailing_zeros() as usize % RAYS;
                 met &= met - 1;
-                // SAFETY: the loop above sets a bit of `met` only after it has written the candidates of that ray.
+                // SAFETY: the loop above has written `self.candidates[i]` for each ray `i` in `met`.
                 let candidates = unsafe { self.candidates[i].assume_init() };
-                // SAFETY: `prepare` above has prepared the rays of `active`, and `met` is a subset of `active`.
+                // SAFETY: `prepare` above has prepared the rays of `active`. `met` is a subset of `active`.
                 unsafe { self.settle(number, block, i, candidates) };
                 if ANY && self.nearest.has_found(i) {
                     searching &= !(1 << i);
@@ -202,7 +202,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     }
 
     /// # Safety
-    /// [`prepare`](Self::prepare) has prepared the ray.
+    /// [`prepare`](Self::prepare) has prepared ray `i`.
     #[inline(always)]
     unsafe fn settle(
         &mut self,
@@ -212,7 +212,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
         (mut candidates, values): BlockCandidates<T>,
     ) {
         if T::ONE_STAGE {
-            // All candidates of a one-stage test are hits, so this loop needs no call of `leaf::settle`.
+            // All candidates of a one-stage test are hits.
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 candidates &= candidates - 1;
@@ -224,7 +224,7 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % WIDTH;
                 let (id, place) = (block.ids[lane], (number * WIDTH + lane) as u32);
-                // Several leaves may reference a triangle: skip the triangle of the nearest hit.
+                // Several leaves may reference the triangle of the nearest hit.
                 let decided = self.nearest.id(i) == id || {
                     // SAFETY: by the contract of this function ray `i` is prepared.
                     match T::decide_at_once(unsafe { self.prepared(i) }, &block.triangles, lane, &values) {
@@ -245,11 +245,11 @@ impl<'a, T: TriangleTest> PacketState<'a, T> {
     }
 
     /// # Safety
-    /// [`prepare`](Self::prepare) has prepared the ray.
+    /// [`prepare`](Self::prepare) has prepared ray `i`.
     #[inline(always)]
     unsafe fn prepared(&self, i: usize) -> &T::Ray {
         debug_assert!(self.ready >> i & 1 == 1);
-        // SAFETY: by the contract of this function `prepare` has written the ray. Written rays stay initialised.
+        // SAFETY: by the contract of this function `prepare` has written ray `i`. Written rays stay initialised.
         unsafe { self.prepared[i].assume_init_ref() }
     }
 

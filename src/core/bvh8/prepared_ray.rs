@@ -8,22 +8,25 @@ use crate::traversal::line::inverses;
 /// A ray, prepared for box tests.
 ///
 /// **No box is lost.** Errors are relative, in units of 2^-24. Let a closed box contain a hit at the exact parameter
-/// t*. Let T be the `t` of the nearest hit so far, or the end of the ray. The search must find the hit only if t* is at
-/// least `t_min` and at most one unit beyond T (see [`Line`](crate::traversal::line::Line)).
+/// t*. Let T be the `t` of the nearest hit so far, or the end of the ray. The proof assumes that t* is at least `t_min`
+/// and at most one unit beyond T. One unit covers the rounding of `t` in triangle tests (see
+/// [`Line`](crate::traversal::line::Line)).
 ///
-/// On each axis, the ray crosses the near plane at n <= t*. It crosses the far plane at f >= t*.
+/// On each axis, the ray crosses the near plane at n <= t*. The ray crosses the far plane at f >= t*.
 ///
-/// - For a near plane p, fl(N) is computed, where N = fl(p - o) * i and i = fl(1 / d). Two roundings put N less than
+/// - For a near plane p, the entry is fl(N), where N = fl(p - o) * i and i = fl(1 / d). Two roundings put N less than
 ///   2.1 units from n.
-/// - For a far plane p, fl(F) is computed, where F = fl(p - o) * g, and g is i enlarged by 16 units. Three roundings
-///   put F less than 3.1 units from the point 16 units beyond f.
-/// - So `t_min` <= F. If n is not negative, N <= F for the planes of any two axes. Rounding is monotonic, so fl(N) <=
-///   fl(F), even after underflow.
-/// - If n is negative, `t_min` replaces fl(N).
-/// - [`after`](crate::traversal::line::after) moves `end` more than 6.9 units beyond T, so fl(N) does not exceed `end`.
+/// - For a far plane p, the exit is fl(F), where F = fl(p - o) * g. The factor g is i, enlarged by 16 units and
+///   rounded. Three roundings put F less than 3.1 units from the point 16 units beyond f.
+/// - So F is at least f. From f >= t* >= `t_min` follows fl(F) >= `t_min`.
+/// - If n is not negative, N <= F for a near plane and a far plane of any axes. Rounding is monotonic, so fl(N) <=
+///   fl(F).
+/// - If n is negative, the maximum of fl(N) and `t_min` is `t_min`.
+/// - [`after`](crate::traversal::line::after) moves `end` more than 6.9 units beyond T. Without underflow, fl(N) is at
+///   most 1 + 2.1 + 1 units beyond T. So fl(N) <= `end`.
+/// - If fl(N) is subnormal, fl(N) <= `end`, because `after` adds the smallest normal float.
 /// - If fl(N) overflows, `end` and fl(F) are infinite.
-/// - Infinite crossings (d = 0) order correctly. Undefined crossings are NaN (see [`inverses`]), and a NaN leaves the
-///   interval unchanged.
+/// - Infinite crossings (d = 0) compare correctly. Undefined crossings are NaN. A NaN leaves the interval unchanged.
 ///
 /// No multiplication is fused with an addition. So all SIMD levels visit the same boxes for the same `end`.
 #[derive(Clone, Copy)]
@@ -35,13 +38,13 @@ pub(super) struct PreparedRay {
     near: [usize; 3],
     far: [usize; 3],
     pub t_min: f32,
-    /// The octant of the direction: bits 0, 1 and 2 are set for a negative x, y and z.
+    /// The octant of the direction. Bits 0, 1 and 2 are the sign bits of x, y and z.
     pub octant: usize,
 }
 
 pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
-/// The rows (0 to 5) of the near and the far planes in a node, by axis.
+/// The rows (0 to 5) of the near planes and the rows of the far planes, by axis.
 #[inline(always)]
 pub(super) fn rows(octant: usize) -> ([usize; 3], [usize; 3]) {
     let [x, y, z] = indexed(|axis| octant >> axis & 1);
@@ -71,14 +74,15 @@ impl PreparedRay {
         }
     }
 
-    /// For each box, the parameters of entry and exit of the ray, clamped to `t_min` and `end`. The ray misses a box if
-    /// it leaves before it enters.
+    /// Returns the parameters of entry and exit for each box.
+    ///
+    /// Entries are at least `t_min`. Exits are at most `end`. The ray misses a box if the exit is below the entry.
     #[inline(always)]
     pub fn cross<L: Lanes<WIDTH>>(&self, node: &Node, end: f32) -> (L, L) {
         let planes = (&raw const node.planes).cast::<u8>();
         let (mut enter, mut leave) = (L::splat(self.t_min), L::splat(end));
         for axis in 0..3 {
-            // SAFETY: `of` computes the offsets from rows below 6, and `planes` has 6 rows. Each row is an aligned
+            // SAFETY: `of` computes the offsets from row numbers below 6. `planes` has 6 rows. Each row is an aligned
             // array of floats.
             let (near, far) = unsafe { (&*planes.add(self.near[axis]).cast(), &*planes.add(self.far[axis]).cast()) };
             enter = L::load(near).sub(L::splat(self.origin[axis])).mul(L::splat(self.inverse[axis])).max(enter);

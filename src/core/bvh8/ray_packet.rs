@@ -17,14 +17,15 @@ pub(super) struct RayPacket<L> {
     pub enlarged: [[L; HALVES]; 3],
     pub t_min: [L; HALVES],
     t_max: [L; HALVES],
-    /// The largest magnitudes of a direction component (`longest`) and of an origin component (`farthest`).
+    /// The largest magnitude of a direction component.
     longest: f32,
+    /// The largest magnitude of an origin component.
     farthest: f32,
     ends: Row,
     pub octant: usize,
 }
 
-/// Transposes eight rays: row `i` has number `i` of all rays.
+/// Transposes eight rays. Row `i` of the result contains float `i` of each ray.
 #[inline(always)]
 fn numbers<L: EightLanes>(rays: &[Ray]) -> [L; 8] {
     let mut rows = [L::zero(); WIDTH];
@@ -42,8 +43,14 @@ fn greatest<L: EightLanes>(lanes: L) -> f32 {
 }
 
 impl<L: EightLanes> RayPacket<L> {
-    /// Returns `None` if a ray is invalid or if octants differ. All inverses must be normal floats. Enlarged inverses
-    /// and differences to planes in `bounds` must be finite. The caller must set the ends of the rays.
+    /// Returns `None` in these cases:
+    /// - A ray is invalid.
+    /// - The octants of two rays differ.
+    /// - An inverse is not a normal float.
+    /// - An enlarged inverse is not finite.
+    /// - The difference of an origin and a plane in `bounds` may overflow.
+    ///
+    /// The caller must set the ends of the rays.
     #[inline(always)]
     pub fn new(rays: &[Ray; RAYS], bounds: &Aabb) -> Option<Self> {
         let (low, high) = rays.split_at(WIDTH);
@@ -52,7 +59,7 @@ impl<L: EightLanes> RayPacket<L> {
         let (origin, direction) = ([row(0), row(1), row(2)], [row(4), row(5), row(6)]);
         let mut octant = 0;
         for (axis, [low, high]) in direction.iter().enumerate() {
-            // Zeros of either sign are rejected below, because their inverses are infinite.
+            // The loop below rejects zeros of either sign, because the inverse of a zero is infinite.
             match low.lt(L::zero()) | high.lt(L::zero()) << WIDTH {
                 0 => {}
                 0xffff => octant |= 1 << axis,
@@ -64,7 +71,7 @@ impl<L: EightLanes> RayPacket<L> {
         let enlarged = each(&inverse, |halves| each(halves, |i| i.mul(L::splat(ENLARGED))));
         let (t_min, t_max) = (each(&row(3), |t| t.max(L::zero())), row(7));
 
-        // These are the conditions of `Ray::is_valid` and `inverses`.
+        // The conditions below must imply `Ray::is_valid` and finite results of `traversal::line::inverses`.
         let abs = |x: L| x.flip_sign(x);
         let mut good = u32::MAX;
         for half in 0..HALVES {

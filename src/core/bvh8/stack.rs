@@ -5,15 +5,14 @@ use std::mem::MaybeUninit;
 use super::node::{Child, DEPTH, Node, WIDTH};
 use crate::simd::EightLanes;
 
-/// Each node of a path leaves at most seven entries, and eight are written at once.
+/// At most seven entries remain per node of a path. A push writes eight entries at once.
 pub(super) const SIZE: usize = DEPTH * (WIDTH - 1) + WIDTH;
 const _: () = assert!(1 + (DEPTH - 1) * (WIDTH - 1) + WIDTH <= SIZE);
 
-/// Children to visit, the next one on top, and the parameters at which the ray enters them.
+/// The children to visit, with the parameter at which the ray enters each child. The next child is on top.
 ///
-/// Eight entries are written at once, and a store across the border of two pages is slow. [`OnePage`] keeps the first
-/// entries of a single ray in one page. Simultaneous stacks should begin at different offsets in their pages, to use
-/// different sets of the cache.
+/// A store of eight entries across a page border is slow. [`OnePage`] keeps the first entries in one page. Stacks of
+/// interleaved rays should begin at different page offsets, to use different cache sets.
 #[repr(C)]
 pub(super) struct Entries {
     children: [MaybeUninit<Child>; SIZE],
@@ -26,13 +25,13 @@ pub(super) struct Stack<'a, const ANY: bool> {
 }
 
 /// A value that begins a quarter of a page after the start of a page. The offset avoids 4K aliasing with spilled
-/// registers, which lie at the start of a page.
+/// registers at the start of a page.
 #[repr(C, align(4096))]
 pub(super) struct OnePage<T>(pub [MaybeUninit<u8>; BEFORE], pub T);
 
 const BEFORE: usize = 1024;
 
-/// The page contains the first entries of `enters`, more than most traversals use.
+/// The page contains more than 50 entries of `enters`. Most traversals use fewer entries.
 const _: () = assert!((4096 - BEFORE) / size_of::<Child>() - SIZE > 50);
 
 impl<T> OnePage<T> {
@@ -65,8 +64,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     /// `len` is one of:
     /// - 0;
     /// - 1, after [`reset`](Entries::reset);
-    /// - the length of the last stack of the same `ANY` over these entries, if no other code has written to the entries
-    ///   since.
+    /// - the final length of the previous stack with the same `ANY` over `entries`. No other code has written to
+    ///   `entries` since.
     #[inline(always)]
     pub unsafe fn of(entries: &'a mut Entries, len: usize) -> Self {
         Self { entries, len }
@@ -77,17 +76,18 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         self.len
     }
 
-    /// Pushes the children whose boxes the ray meets, except the first in visiting order. Returns the first child. With
-    /// `ANY`, higher lanes come first.
+    /// Returns the first child, in visiting order, whose box the ray meets. Pushes all later children whose boxes the
+    /// ray meets. With `ANY`, children are visited from the highest lane to the lowest lane.
     ///
     /// # Safety
-    /// Each node of the path is pushed once, and the path has at most [`DEPTH`] nodes.
+    /// Each node of the path is pushed once. The path has at most [`DEPTH`] nodes.
     #[inline(always)]
     pub unsafe fn push<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) -> Option<Child> {
         let children = Child::bits(&node.children);
         let order = node.orders[octant & 7];
-        // SAFETY: by the contract of this function, at most `DEPTH` - 1 nodes have left seven entries each. `reset` has
-        // left at most one entry. By the assertion at `SIZE`, eight more fit. A child is a transparent `u32`.
+        // SAFETY: by the contract of this function, at most `DEPTH` - 1 nodes were pushed before. Each of these nodes
+        // added at most seven entries. `reset` added at most one entry. By the assertion at `SIZE`, eight more entries
+        // fit. `Child` has the layout of `u32`.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             if ANY {
@@ -105,7 +105,7 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
         for place in (0..WIDTH).rev() {
             if met >> place != 0 {
                 self.len += met.count_ones() as usize - 1;
-                // Keeps the compiler from replacing the branches by a look-up, which is not predicted.
+                // Keeps the compiler from replacing the predicted branches by a look-up.
                 std::hint::black_box(());
                 let lane = if ANY { place } else { (order >> (3 * place) & 7) as usize };
                 return Some(node.children[lane]);
@@ -119,7 +119,8 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
     pub fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
             self.len -= 1;
-            // SAFETY: by the contract of `of`, `push` has written the entries below `len`; with `ANY`, only `children`.
+            // SAFETY: by the contract of `of`, the entries below `len` are written. With `ANY`, only `children` is
+            // read.
             unsafe {
                 if ANY || self.entries.enters.get_unchecked(self.len).assume_init() <= end {
                     return Some(self.entries.children.get_unchecked(self.len).assume_init());
@@ -131,14 +132,14 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
 }
 
 impl Stack<'_, false> {
-    /// Like [`push`](Self::push), but pushes the first child as well.
+    /// Like [`push`](Self::push), but also pushes the first child.
     ///
     /// # Safety
     /// As for [`push`](Self::push). In addition, [`pop_down`](Self::pop_down) is called before the next `push_all`.
     #[inline(always)]
     pub unsafe fn push_all<L: EightLanes>(&mut self, node: &Node, octant: usize, (enter, leave): (L, L)) {
         let children = Child::bits(&node.children);
-        // SAFETY: as in `push`. A node leaves at most seven entries, because the caller pops one of the eight.
+        // SAFETY: as in `push`. At most seven entries remain per node, because the caller pops one of eight entries.
         let met = unsafe {
             let chosen = self.entries.children.as_mut_ptr().add(self.len).cast();
             let enters = self.entries.enters.as_mut_ptr().add(self.len).cast();
@@ -147,14 +148,14 @@ impl Stack<'_, false> {
         self.len += met.count_ones() as usize;
     }
 
-    /// Pops the next child that the ray enters at or before `end`, or [`BOTTOM`](Child::BOTTOM) if none is left.
+    /// Pops the next child that the ray enters at or before `end`, or [`BOTTOM`](Child::BOTTOM).
     ///
     /// # Safety
-    /// The entries were [`reset`](Entries::reset), and the bottom has not been returned since.
+    /// The entries were [`reset`](Entries::reset). [`BOTTOM`](Child::BOTTOM) has not been returned since the reset.
     #[inline(always)]
     pub unsafe fn pop_down(&mut self, end: f32) -> Child {
-        // SAFETY: by the contracts of this function and `of`, the entries below `len` are written. The loop ends at the
-        // bottom or above, because the bottom is entered at minus infinity.
+        // SAFETY: by the contracts of this function and `of`, the entries below `len` are written. `BOTTOM` ends the
+        // loop, because its entry parameter is minus infinity.
         unsafe {
             self.len -= 1;
             while self.entries.enters.get_unchecked(self.len).assume_init() > end {

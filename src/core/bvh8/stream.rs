@@ -1,8 +1,7 @@
-//! Interleaved closest-hit queries: several single rays are active at once.
+//! Interleaved closest-hit queries: several rays are active at once.
 //!
-//! Each ray has its own stack and takes the steps of a single ray. So interleaving changes no hit. After a step of one
-//! ray, the memory for its next step is prefetched. Rays at nodes and rays at leaves are in separate lists. So no
-//! branch depends on the type of the next child.
+//! Each ray takes the same steps as without interleaving. After a step of a ray, the memory for the next step of this
+//! ray is prefetched. Rays at nodes and rays at leaves are in separate lists, to avoid branches on the child type.
 
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
@@ -18,7 +17,7 @@ use crate::traversal::line::after;
 use crate::traversal::pages;
 use crate::triangle::TriangleTest;
 
-/// Number of active rays: enough to hide the latency of memory, few enough for the first-level cache.
+/// Maximum number of active rays.
 const SLOTS: usize = 8;
 
 struct StreamRay<'a, T: TriangleTest> {
@@ -30,7 +29,7 @@ struct StreamRay<'a, T: TriangleTest> {
     /// Boxes that the ray enters after this parameter are skipped.
     end: f32,
     child: Child,
-    /// The number of the ray in its slice.
+    /// The number that `done` receives with the hit.
     number: usize,
     entries: Entries,
     /// The length of the stack in `entries`.
@@ -67,16 +66,18 @@ impl<'a, T: TriangleTest> List<'a, T> {
     }
 }
 
-/// Active rays in a tree. Each slot is in exactly one of the lists.
+/// Active rays in a tree. Each slot is counted in exactly one of the lists `nodes`, `leaves` and `free`.
 pub(super) struct Stream<'a, T: TriangleTest> {
     tree: &'a Bvh8<T>,
     slots: PhantomData<&'a mut Slots<'a, T>>,
     nodes: List<'a, T>,
     leaves: List<'a, T>,
     free: List<'a, T>,
-    /// The lengths of the three lists.
+    /// The length of `nodes`.
     at_nodes: usize,
+    /// The length of `leaves`.
     at_leaves: usize,
+    /// The length of `free`.
     freed: usize,
 }
 
@@ -115,11 +116,11 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         let (tree, root) = (self.tree, self.tree.root);
         let Some((t_min, nearest)) = start::<T>(ray).filter(|_| !root.is_leaf()) else { return done(number, None) };
         let (prepared_ray, end) = (PreparedRay::new(ray, tree.farthest, t_min), after(nearest.t));
-        // SAFETY: `freed` is above 0 and counts the slots in `free`. `new` has borrowed these slots for the lifetime of
-        // the stream. Every field of the slot is written before the slot is put into a list. Unwritten entries lie
-        // above the top of the stack, which `stack_len` marks. A slot is counted in one list at a time, so no list
-        // becomes longer than `SLOTS`. A root that is not a leaf is a node (invariants of `Bvh8`). The root is the
-        // first node of every path.
+        // SAFETY: by the contract of this function `freed` is above 0. `free` contains `freed` slots. `new` has
+        // borrowed all slots for the lifetime of the stream. Every field of the slot is written before the slot is put
+        // into a list. Unwritten entries lie at or above `stack_len`. A slot is counted in one list at a time, so no
+        // list becomes longer than `SLOTS`. The root is not a leaf, so the root is a node (invariants of `Bvh8`). The
+        // root is the first node of every path.
         unsafe {
             let slot = self.free.get(self.freed - 1);
             Entries::reset(&raw mut (*slot).entries);
@@ -152,12 +153,13 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
     #[inline(always)]
     fn round<L: EightLanes>(&mut self, done: &mut impl FnMut(usize, Option<Hit>)) {
         let tree = self.tree;
-        // Each list is rewritten in place while it is read. A slot is written to both lists, but counted in only one.
+        // Each list is rewritten in place while it is read. Each slot is written to both lists. Only one list counts
+        // the slot.
         let (mut nodes, rays) = (0, self.at_nodes);
         for k in 0..rays {
-            // SAFETY: the first `at_nodes` elements of `nodes` are filled. Each slot is in one list, so `at` is the
-            // only reference to the slot. No list becomes longer than `SLOTS`. The child of the slot is a node, so the
-            // bottom of its stack has not been popped. A path has at most `DEPTH` nodes (invariants of `Bvh8`).
+            // SAFETY: the first `at_nodes` elements of `nodes` are filled. Each slot is counted in one list, so `at` is
+            // the only reference to the slot. No list becomes longer than `SLOTS`. The child of the slot is a node, so
+            // `pop_down` has not returned `BOTTOM`. A path has at most `DEPTH` nodes (invariants of `Bvh8`).
             unsafe {
                 let slot = self.nodes.get(k);
                 let at = &mut *slot;
@@ -174,8 +176,9 @@ impl<'a, T: TriangleTest> Stream<'a, T> {
         }
         let (mut leaves, rays) = (0, self.at_leaves + rays - nodes);
         for k in 0..rays {
-            // SAFETY: as in the loop over `nodes`. The child is a leaf: a range of `blocks` (invariants of `Bvh8`), or
-            // `Child::BOTTOM`. After the bottom, the slot is freed and its stack is not used again.
+            // SAFETY: as in the loop over `nodes`. The child is a leaf. A leaf other than `Child::BOTTOM` is a range of
+            // `blocks` (invariants of `Bvh8`). If the child is `BOTTOM`, the slot is freed. `push` resets the stack of
+            // a free slot before the next use.
             unsafe {
                 let slot = self.leaves.get(k);
                 let at = &mut *slot;

@@ -68,8 +68,7 @@ fn the_unit_of_length_does_not_matter() {
     }
 }
 
-/// Ray 5 has a direction component whose inverse is finite, and whose enlarged inverse is infinite. The ray passes the
-/// triangles so closely that the triangle test reports a hit.
+/// Ray 5 has a direction component with a finite inverse. The enlarged inverse is infinite.
 #[test]
 fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
     let mesh = mesh(200, |i| {
@@ -152,7 +151,7 @@ fn long_slices_are_answered_as_their_rays_are() {
         _ => toward(i * 7, scattered(i).origin),
     };
     let mut rays: Vec<Ray> = (0..2 * 4096 + 21).map(ray).collect();
-    // Some rays begin on a triangle, which requires exact arithmetic.
+    // Rays that begin on a triangle require exact arithmetic.
     for (i, ray) in rays.iter_mut().enumerate().filter(|(i, _)| i / 16 % 3 == 1 && i % 4 == 0) {
         ray.origin = mesh.corners(i as u32 % 300)[0];
     }
@@ -185,7 +184,7 @@ fn as_bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, PrimId)>> {
     hits.iter().map(|hit| hit.map(|hit| (hit.t.to_bits(), hit.prim))).collect()
 }
 
-/// The triangles differ by a few bits; some are equal. If `f32` cannot decide the order of hits, exact arithmetic does.
+/// The triangles differ only by a few units in the last place. Some triangles are equal.
 #[test]
 fn crowds_of_triangles_are_ordered_exactly() {
     let bits = |i: u32| i.wrapping_mul(0x9e37_79b1).rotate_left(11).wrapping_mul(2_654_435_761);

@@ -1,15 +1,15 @@
 //! The traversal of a single ray, for both queries.
 //!
-//! **No hit is lost.** Let the ray hit a triangle at the point p, at the exact parameter t* in the interval of the ray.
+//! **No hit is lost.** Let p be a point at which the ray hits a triangle. Let t* be the exact parameter of p.
 //!
 //! - The build rounds the boxes of clipped triangles outward. So the box of some leaf with this triangle contains p.
 //! - The boxes of all nodes above this leaf contain p.
-//! - A closest-hit query skips a box that contains p only after a hit with a computed t before t* (see
-//!   [`PreparedRay`]). `kdtree/traverse.rs` explains why the result is correct.
-//! - An any-hit query skips a box that contains p only after some hit.
+//! - Before a closest-hit query skips a box around p, the query has found a hit with a computed t below t* (see
+//!   [`PreparedRay`]).
+//! - Before an any-hit query skips a box around p, the query has found a hit.
 //!
 //! A closest-hit query visits children in the order that the node stores for the octant of the ray's direction. An
-//! any-hit query visits leaves before nodes. Among nodes, an any-hit query visits large boxes before small boxes.
+//! any-hit query visits child leaves before child nodes. Among child nodes, larger boxes come first.
 //!
 //! # References
 //! Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014.
@@ -51,12 +51,12 @@ impl<T: TriangleTest> Bvh8<T> {
         }
         let prepared_ray = PreparedRay::new(ray, self.farthest, t_min);
         let OnePage(_, entries) = &mut OnePage::new(Entries::new());
-        // SAFETY: `Stack::of` accepts all entries for the length 0.
+        // SAFETY: the contract of `Stack::of` allows the length 0 without further conditions.
         let mut stack = unsafe { Stack::<ANY>::of(entries, 0) };
         // SAFETY: the root is not a leaf, so the root is a node (invariants of `Bvh8`). No node has been entered yet.
         let first =
             unsafe { self.enter::<ANY, L, O>(self.root, &prepared_ray, after(nearest.t), &mut stack, observer) };
-        // Prepare the ray for triangles only now, because many rays miss all children of the root.
+        // `T::prepare` is called only after the box tests, because many rays miss all children of the root.
         let Some(first) = first else { return };
         self.descend::<ANY, L, O>(first, &mut stack, &prepared_ray, &T::prepare(ray), nearest, observer);
     }
@@ -73,8 +73,8 @@ impl<T: TriangleTest> Bvh8<T> {
         observer: &mut O,
     ) -> Option<Child> {
         observer.inner();
-        // SAFETY: by contract, `node` is a node of the tree and is pushed once. No path has more than `DEPTH` nodes
-        // (invariants of `Bvh8`).
+        // SAFETY: by the contract of this function, `node` is a node of the tree. By this contract, `node` is pushed
+        // once. No path has more than `DEPTH` nodes (invariants of `Bvh8`).
         unsafe {
             let node = self.nodes.get_unchecked(node.index());
             stack.push::<L>(node, prepared_ray.octant, prepared_ray.cross(node, end))

@@ -21,7 +21,7 @@ use crate::triangle::TriangleTest;
 /// Spatial splits in bounding volume hierarchies, 2009.
 pub struct Bvh8<T: TriangleTest> {
     // The `unsafe` blocks of the traversals rely on these invariants. `Layout` establishes the invariants. No code
-    // changes a tree after the build.
+    // changes `root`, `nodes` or `blocks` after the build.
     // - The root and every child refer to a node in `nodes` or to a range of `blocks`.
     // - The root is a leaf only if the tree has no triangles.
     // - Each node is a child of at most one node.

@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 /// A number as the exact sum of nonzero floats in ascending magnitude. The bits of different terms do not overlap.
 ///
-/// The operations are exact unless a result overflows or underflows. A product of six differences of `f32` numbers
+/// Sums and products are exact unless a result overflows or underflows. A product of six differences of `f32` numbers
 /// neither overflows nor underflows. The magnitude of such a product is below 2^780. Such a product is a multiple of
 /// 2^-894.
 ///
@@ -83,12 +83,15 @@ impl Expansion {
         self.0.iter_mut().for_each(|term| *term = -*term);
     }
 
-    /// The sign of the number is the sign of the largest term.
+    /// The sign of the number is the sign of the last term. The last term has the largest magnitude.
     pub fn sign(&self) -> Ordering {
         self.0.last().map_or(Ordering::Equal, |largest| largest.total_cmp(&0.0))
     }
 
-    /// The value of the number, with a relative error below 2^-51.
+    /// The value of the number, with a relative error of at most 2^-52.
+    ///
+    /// The bits of two terms are never adjacent (Shewchuk: Grow-Expansion). So partial sums grow, and their roundings
+    /// add up to at most twice the last one.
     pub fn approximate(&self) -> f64 {
         self.0.iter().fold(0.0, |sum, term| sum + term)
     }
@@ -126,7 +129,7 @@ mod tests {
 
     fn approximates(sum: &Expansion, right: RBig) {
         assert_eq!(sum.sign(), right.cmp(&RBig::ZERO));
-        let error = (RBig::try_from(sum.approximate()).unwrap() - &right) * RBig::from(1_u64 << 51);
+        let error = (RBig::try_from(sum.approximate()).unwrap() - &right) * RBig::from(1_u64 << 52);
         let size = right.clone().max(-right);
         assert!(error >= -size.clone() && error <= size);
     }

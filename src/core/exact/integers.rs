@@ -1,5 +1,5 @@
-//! Intersects a line and a triangle in integers. Integers are faster than sums of floats. Not every input fits into
-//! the integers.
+//! Intersects a line and a triangle with integer arithmetic. Integer arithmetic is faster than sums of floats. Some
+//! inputs need more bits than the integer types have.
 
 use std::cmp::Ordering;
 
@@ -30,7 +30,7 @@ fn heights_fit(points: Places) -> bool {
     points <= 40
 }
 
-/// Like [`hit`](super::hit), for finite numbers. The outer `None` means that the numbers do not fit into the integers.
+/// Like [`hit`](super::hit), for finite numbers. The outer result is `None` if the integers would need too many bits.
 pub(super) fn hit(ray: &Ray, corners: [Vec3; 3]) -> Option<Option<ExactT>> {
     let [a, b, c] = corners;
     let (points, unit, places) = integers([ray.origin, a, b, c])?;
@@ -78,8 +78,10 @@ pub(super) fn height(origin: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f64> {
     Some(Expansion::of_integer(height, 3 * unit).approximate())
 }
 
-/// Returns the vectors as multiples of a power of two, the exponent of this power, and the number of places. Returns
-/// `None` for more than 60 places.
+/// Expresses the vectors as integer multiples of a power of two.
+///
+/// Returns the multiples, the exponent of the power, and the places of the multiples. Returns `None` for more than 60
+/// places.
 fn integers<const N: usize>(vectors: [Vec3; N]) -> Option<([[i64; 3]; N], i32, Places)> {
     let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
     for x in vectors.iter().flat_map(|vector| vector.to_array()).filter(|&x| x != 0.0) {
@@ -170,7 +172,7 @@ mod tests {
             for signs in 0..1_u32 << 15 {
                 let x = |k: u32| number(1 - 2 * i64::from(signs >> k & 1));
                 let vector = |k: u32| Vec3::new(x(3 * k), x(3 * k + 1), x(3 * k + 2));
-                // One component of the origin and one component of the direction use the lowest bit.
+                // With the components `unit`, the points and the direction have 40 places.
                 let ray = Ray::new(Vec3 { x: unit, ..vector(0) }, Vec3 { y: unit, ..vector(1) });
                 let corners = [vector(2), vector(3), vector(4)];
                 let found = hit(&ray, corners).expect("it fits");

@@ -25,11 +25,11 @@ pub struct ExactT {
 /// The parameter at which the line of `ray` meets the closed triangle. The result is `None` if the line misses the
 /// triangle or lies in the plane of the triangle.
 ///
-/// The function ignores the interval of the ray (see [`ExactT::is_within`]). The result is `None` if a number is not
-/// finite.
+/// The function ignores the interval of the ray (see [`ExactT::is_within`]). The result is `None` if the origin, the
+/// direction or a corner is not finite.
 ///
-/// Let the corners be a, b and c. The line misses the triangle if [`side`] is opposite for two of the edges ab, bc
-/// and ca.
+/// Let the corners be a, b and c. The line misses the triangle if two of the edges ab, bc and ca have opposite results
+/// of [`side`].
 ///
 /// # References
 /// Segura, Feito: Algorithms to test ray-triangle intersection. Comparative study. WSCG 2001.
@@ -146,8 +146,8 @@ fn hit_by_sums(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactT> {
 }
 
 impl ExactT {
-    /// Whether this `t` lies in the half-open interval of `ray`. A `t` that rounds to infinity lies outside (see
-    /// [`Ray::end`]).
+    /// Whether this `t` lies in the half-open interval of `ray`. A `t` that rounds to infinity lies outside the
+    /// interval (see [`Ray::end`]).
     pub fn is_within(&self, ray: &Ray) -> bool {
         let begun = self.order(ray.interval().0.into()).is_ge();
         begun && !ray.t_max.is_nan() && self.order(ray.end()).is_lt()
@@ -170,10 +170,10 @@ impl ExactT {
         Expansion::minor(&self.numerator, &one, &Expansion::from(t), &self.denominator).sign()
     }
 
-    /// This `t`, with a relative error below 2^-50.
+    /// This `t`, with a relative error below 6 * 2^-53.
     pub fn approximate(&self) -> f64 {
-        // The quotient neither overflows nor underflows. A nonzero numerator or denominator is between 2^-447 and 2^391
-        // in magnitude.
+        // The quotient neither overflows nor underflows. The magnitude of a nonzero numerator or denominator is between
+        // 2^-447 and 2^391.
         self.numerator.approximate() / self.denominator.approximate()
     }
 

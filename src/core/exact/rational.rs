@@ -1,7 +1,7 @@
 //! A second implementation of [`hit`](super::hit()) for tests, in rational numbers.
 //!
-//! The functions panic if an origin, a direction or a corner is not finite. As an exception, [`nearest`] returns `None`
-//! if the origin or the direction is not finite.
+//! The functions panic if the origin, the direction or a corner is not finite. As an exception, [`nearest`] returns
+//! `None` if the origin or the direction is not finite.
 
 use dashu_ratio::RBig;
 use glam::Vec3;

@@ -30,7 +30,7 @@ fn both_formulations_agree_on_a_grid_and_at_all_scales() {
             on_grid += usize::from(assert_agree(&ray(&mut rng, grid), corners));
         }
         if round % 2 == 0 {
-            // The scales range from denormals to numbers with cubes that overflow `f32`.
+            // The scales range from denormals to numbers whose cubes overflow `f32`.
             let scale = f32::from_bits([1 << 10, 1 << 23, 97 << 23, 127 << 23, 157 << 23, 253 << 23][round / 2 % 6]);
             let corners = triangle(&mut rng, unit).map(|p| p * scale);
             let ray = Ray::new(point(&mut rng, unit) * scale, point(&mut rng, unit));
@@ -95,10 +95,10 @@ fn rounding_is_to_nearest_even() {
     assert_eq!(fraction(16_777_217.0, 1.0).round(), 16_777_216.0);
     assert_eq!(fraction(16_777_219.0, 1.0).round(), 16_777_220.0);
     assert_eq!(fraction(-7.0, 1000.0).round(), -0.007);
-    // These fractions are closer to a tie than `f64` can resolve.
+    // Rounded to `f64`, each fraction would be exactly a tie.
     let near_tie = |off: f64| ExactT { numerator: Expansion::difference(16_777_217.0, off), denominator: 1.0.into() };
     assert_eq!([-1e-20, 0.0, 1e-20].map(|off| near_tie(off).round()), [16_777_218.0, 16_777_216.0, 16_777_216.0]);
-    // Half of the smallest denormal is a tie and rounds to zero.
+    // The tie between zero and the smallest denormal rounds to zero.
     assert_eq!(fraction(1.0, 2.0_f64.powi(150)).round(), 0.0);
     assert_eq!(fraction(3.0, 2.0_f64.powi(151)).round(), f32::from_bits(1));
     // 2^128 - 2^103 is half an ulp above the largest float.

@@ -1,8 +1,9 @@
 //! [bvh](https://github.com/svenstaro/bvh) 0.13 (crate `bvh`): a binary BVH, built by binned SAH, with one triangle per
 //! leaf.
 //!
-//! The crate has no closest-hit query. The iterator of the crate yields the triangles with boxes that the ray meets.
-//! `PrunedRay` rejects boxes beyond the nearest hit so far. The iterator panics on trees deeper than 32 levels.
+//! The crate has no closest-hit query. `traverse_iterator` yields the triangles whose boxes the ray meets.
+//! `PrunedRay` rejects boxes beyond the nearest hit so far. `traverse_iterator` may panic on trees deeper than 32
+//! levels.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -67,7 +68,7 @@ impl IntersectsAabb<f32, 3> for PrunedRay<'_> {
     }
 }
 
-/// A factor that enlarges the limits of box tests against the rounding errors of distances.
+/// The limits of box tests are multiplied by this factor, to allow for the rounding errors of distances.
 const SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 fn point(v: Vec3) -> Point3<f32> {
@@ -170,8 +171,8 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
 /// The triangle test of the crate `bvh`: Möller-Trumbore with a unit direction and culling of back faces.
 ///
-/// The adapter tests both windings. The adapter divides the distance by the length of the direction. The test misses at
-/// determinants below [`f32::EPSILON`] and at distances up to [`f32::EPSILON`].
+/// The second winding is tested if the first winding misses. The `t` of a hit is the distance divided by the length of
+/// the direction. The test misses at determinants below [`f32::EPSILON`] and at distances up to [`f32::EPSILON`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SvenstaroTest;
 

@@ -1,4 +1,4 @@
-//! Blocks for the triangle tests of other projects, which test one triangle at a time.
+//! Blocks of triangles, for triangle tests that accept one triangle per call.
 
 use glam::Vec3;
 
@@ -10,7 +10,8 @@ pub(super) fn block<B, const N: usize>(triangles: &[[Vec3; 3]], make: impl Fn([V
     std::array::from_fn(|lane| make(triangles.get(lane).copied().unwrap_or_default()))
 }
 
-/// The lanes with a `t` in [`from`, `to`], as bits, and the `t` of all lanes. For a miss, `t` must return infinity.
+/// Returns one bit per lane and the `t` of each lane. The bit of a lane is set if its `t` is finite
+/// and `from` <= `t` <= `to`. The closure `t` must return infinity for a miss.
 #[inline(always)]
 pub(super) fn candidates<const N: usize, L: Lanes<N>>(from: f32, to: f32, t: impl Fn(usize) -> f32) -> (u32, L) {
     let t = L::load(&indexed(t));

@@ -3,10 +3,10 @@ use crate::geometry::{Aabb, Mesh, Ray};
 use crate::traversal::leaf::{Nearest, start};
 use crate::triangle::TriangleTest;
 
-/// The triangles with an area, in mesh order, prepared for the test `T`.
+/// The triangles with an area, prepared for the triangle test `T`.
 pub(super) struct Leaves<T: TriangleTest> {
     triangles: Vec<T::Block<1>>,
-    /// The number of each triangle in the mesh.
+    /// `triangles[i]` is triangle `ids[i]` of the mesh.
     pub ids: Vec<u32>,
 }
 
@@ -19,7 +19,7 @@ pub(super) struct Start<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Start<T> {
-    /// `None` if the ray can hit nothing.
+    /// `None` if the ray is invalid.
     #[inline(always)]
     pub fn new(ray: &Ray) -> Option<Self> {
         start::<T>(ray).map(|(t_min, nearest)| Self { original: *ray, ray: T::prepare(ray), t_min, last: nearest.t })

@@ -1,8 +1,9 @@
 //! [parry](https://github.com/dimforge/parry) 0.31 (crate `parry3d`): a binary BVH, one triangle per leaf.
 //!
-//! The crate computes the inverse direction in the timed region, because it accepts no precomputed inverse. parry has
-//! no query that stops at the first hit. In any-hit queries, the adapter's leaf test reports its first hit at t =
-//! -infinity, so all remaining boxes lie behind this hit.
+//! parry computes the inverse direction in every query, because parry accepts no precomputed inverse.
+//!
+//! parry has no any-hit query for rays. The any-hit query of this module reports a hit to parry at t = -infinity.
+//! parry then skips all remaining boxes, because every box distance exceeds -infinity.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -23,7 +24,7 @@ use crate::simd::Lanes;
 use crate::triangle::TriangleTest;
 use crate::triangle::decided_at_once::decided_at_once;
 
-/// The BVH of parry over the triangle test `T`.
+/// The BVH of parry with the triangle test `T`.
 pub struct ParryBvh<T: TriangleTest> {
     tree: Bvh,
     leaves: Leaves<T>,
@@ -96,12 +97,11 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
 
     prepared_queries!();
 
-    /// The nodes include parry's tables for moving objects.
+    /// `nodes` includes parry's tables for tree updates.
     fn footprint(&self) -> Footprint {
         Footprint { nodes: self.tree.total_memory_size(), ..self.leaves.footprint() }
     }
 
-    /// The SAH cost is unknown, because parry shows the nodes only to traversals.
     fn shape(&self) -> TreeShape {
         let leaves = self.leaves.ids.len();
         if leaves <= 1 {
@@ -111,7 +111,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
             inner: leaves - 1,
             leaves,
             references: leaves,
-            // parry counts the nodes of a path, `TreeShape` counts the edges.
+            // The depth in parry counts nodes. The depth in `TreeShape` counts edges.
             depth: self.tree.subtree_depth(0) as usize - 1,
             largest_leaf: 1,
             ..TreeShape::default()
@@ -119,7 +119,7 @@ impl<T: TriangleTest> Accel for ParryBvh<T> {
     }
 }
 
-/// The triangle test of parry: Möller-Trumbore by the triangle's normal, two-sided, without an epsilon.
+/// The two-sided triangle test of parry: Möller-Trumbore with the triangle's normal, without an epsilon.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ParryTest;
 

@@ -1,4 +1,4 @@
-//! Rays in a structure's own format, converted before the clock starts.
+//! Converts a batch of rays to the format of a structure before the batch is traced.
 
 use crate::accel::{Accel, Loaded, Observer};
 use crate::geometry::{Hit, Ray};
@@ -6,7 +6,7 @@ use crate::geometry::{Hit, Ray};
 pub(crate) trait Prepare: Accel {
     type Ready: Send + Sync;
 
-    /// Returns `None` if the ray can hit nothing.
+    /// Returns `None` if the structure reports a miss without tracing the ray.
     fn ready(&self, ray: &Ray) -> Option<Self::Ready>;
 
     fn closest<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> Option<Hit>;
@@ -14,7 +14,7 @@ pub(crate) trait Prepare: Accel {
     fn any<O: Observer>(&self, ready: &Self::Ready, observer: &mut O) -> bool;
 }
 
-/// The queries of an [`Accel`] that implements [`Prepare`].
+/// Implements the query methods of [`Accel`] with the methods of [`Prepare`].
 macro_rules! prepared_queries {
     () => {
         #[inline]

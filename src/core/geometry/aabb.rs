@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-/// The closed box of all points between `min` and `max`. It is empty if `min` exceeds `max` on any axis.
+/// The closed box of all points between `min` and `max`. The box is empty if `min` exceeds `max` on at least one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The least coordinates.
@@ -12,22 +12,22 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The empty box: the identity of [`Aabb::union`].
+    /// The empty box, which is the identity element of [`Aabb::union`].
     pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
-    /// The smallest box that contains these points.
+    /// The smallest box that contains `points`.
     #[inline]
     pub fn of_points(points: impl IntoIterator<Item = Vec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, |all, p| Self { min: all.min.min(p), max: all.max.max(p) })
     }
 
-    /// The smallest box that contains both boxes.
+    /// The smallest box that contains two nonempty boxes.
     #[inline]
     pub fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// The intersection of both boxes. It is empty if they are disjoint.
+    /// The intersection of two boxes. The intersection of disjoint boxes is empty.
     #[inline]
     pub fn intersection(self, other: Self) -> Self {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
@@ -38,30 +38,30 @@ impl Aabb {
         !self.min.cmple(self.max).all()
     }
 
-    /// The lengths of the edges; at least one is negative if the box is empty.
+    /// The lengths of the edges. An empty box has at least one negative length.
     #[inline]
     pub fn extent(&self) -> Vec3 {
         self.max - self.min
     }
 
-    /// The centre. It does not overflow for a finite box.
+    /// The centre, which is finite for every finite box.
     pub fn centre(&self) -> Vec3 {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Half of the surface area (Goldsmith, Salmon 1987), in `f64` to avoid overflow. A negative extent counts as 0.
+    /// Half of the surface area (Goldsmith, Salmon 1987). A negative edge length counts as 0.
     #[inline]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())
     }
 
-    /// The axis of the longest edge; the first axis if several edges are equally long.
+    /// The axis of the longest edge. In a tie, the lowest axis index is returned.
     #[inline]
     pub fn longest_axis(&self) -> usize {
         self.extent().max_position()
     }
 
-    /// Cuts the box at the plane `axis = split` into (below, above). One part is empty if the plane misses the box.
+    /// Cuts the box at the plane `axis = split` into (below, above). If the plane misses the box, one part is empty.
     #[inline]
     pub fn cut(&self, axis: usize, split: f32) -> (Self, Self) {
         let (mut below, mut above) = (*self, *self);

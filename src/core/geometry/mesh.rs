@@ -1,12 +1,12 @@
-//! The mesh that structures are built over.
+//! Triangle meshes.
 
 use glam::Vec3;
 
 use super::Aabb;
 
-/// A validated set of triangles: every coordinate is finite, and every index refers to a vertex.
+/// A set of triangles with finite coordinates and valid vertex indices.
 ///
-/// Degenerate triangles (see [`Mesh::is_degenerate`]) keep their numbers, but no ray hits them.
+/// No ray hits a degenerate triangle (see [`Mesh::is_degenerate`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     positions: Vec<Vec3>,
@@ -15,9 +15,9 @@ pub struct Mesh {
     bounds: Aabb,
 }
 
-/// The reason why [`Mesh::new`] rejects its input. Vertex and triangle numbers start at 0.
+/// The reason why [`Mesh::new`] rejects its input. Vertex and triangle indices start at 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[allow(missing_docs)] // The messages explain the fields.
+#[allow(missing_docs)] // The error messages explain the fields.
 pub enum MeshError {
     /// A coordinate is infinite or NaN.
     #[error("vertex {vertex} has the coordinates ({x}, {y}, {z}): every coordinate must be a finite number")]
@@ -30,11 +30,13 @@ pub enum MeshError {
     TooMany { what: &'static str, count: usize, limit: usize },
 }
 
-/// Maximum number of vertices and of triangles. A triangle number and two flag bits then fit in a `u32`.
+/// A mesh has at most this many vertices and at most this many triangles.
+///
+/// A triangle index and two flag bits together fit in a `u32`.
 const LIMIT: usize = 1 << 30;
 
 impl Mesh {
-    /// Validates the arrays.
+    /// Makes a mesh from vertices and triangles.
     ///
     /// # Errors
     /// See [`Mesh::check`].
@@ -55,10 +57,10 @@ impl Mesh {
         Self::new(triangles.as_flattened().to_vec(), numbers.collect())
     }
 
-    /// Whether [`Mesh::new`] accepts these arrays.
+    /// Checks whether [`Mesh::new`] accepts the arrays.
     ///
     /// # Errors
-    /// The first vertex that is not finite, the first index out of range, or more than 2^30 elements.
+    /// More than 2^30 vertices or triangles, a coordinate that is not finite, or a vertex index that is out of range.
     pub fn check(positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
         for (what, count) in [("vertices", positions.len()), ("triangles", triangles.len())] {
             if count > LIMIT {
@@ -82,12 +84,12 @@ impl Mesh {
         &self.positions
     }
 
-    /// Three vertex numbers per triangle.
+    /// Three vertex indices per triangle.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// Number of triangles, including degenerate ones.
+    /// The number of triangles, including degenerate triangles.
     pub fn len(&self) -> usize {
         self.triangles.len()
     }
@@ -103,18 +105,20 @@ impl Mesh {
         self.triangles[index as usize].map(|i| self.positions[i as usize])
     }
 
-    /// Numbers of the triangles without area, ascending.
+    /// The indices of the degenerate triangles, in ascending order.
     pub fn degenerate(&self) -> &[u32] {
         &self.degenerate
     }
 
-    /// Whether the corners of triangle `index` lie exactly on one line or in one point.
+    /// Whether the corners of triangle `index` lie exactly on one line or at one point.
     #[inline]
     pub fn is_degenerate(&self, index: u32) -> bool {
         self.degenerate.binary_search(&index).is_ok()
     }
 
-    /// Numbers of the triangles with an area, ascending. A structure must contain these triangles.
+    /// The indices of the triangles that are not degenerate, in ascending order.
+    ///
+    /// A structure must contain all triangles that are not degenerate.
     pub fn solid(&self) -> impl Iterator<Item = u32> + '_ {
         let mut flat = self.degenerate.iter().copied().peekable();
         (0..self.len() as u32).filter(move |&i| flat.next_if_eq(&i).is_none())
@@ -126,37 +130,36 @@ impl Mesh {
         Aabb::of_points(self.corners(index))
     }
 
-    /// The box of all triangles; empty if there are no triangles.
+    /// The box of all triangles. A mesh without triangles has an empty box.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 }
 
-/// Whether the projections of three points onto all coordinate planes are exactly collinear.
+/// Whether three points are exactly collinear.
 fn collinear([a, b, c]: [Vec3; 3]) -> bool {
     if a == b || b == c || c == a {
         return true;
     }
     [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| {
-        // Twice the projected area has six terms. Each term is exact, because it has at most 48 bits and an `f64` has
-        // 53.
+        // The product of two `f32` values is exact in `f64`.
         let [(ax, ay), (bx, by), (cx, cy)] = [a, b, c].map(|p| (f64::from(p[i]), f64::from(p[j])));
         sum_is_zero([ax * by, -(ay * bx), bx * cy, -(by * cx), cx * ay, -(cy * ax)])
     })
 }
 
-/// Whether six numbers add up to exactly 0.
+/// Whether the exact sum of six numbers is 0.
 ///
 /// # References
 /// Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997 (Grow-Expansion).
 fn sum_is_zero(terms: [f64; 6]) -> bool {
-    // If the rounded sum exceeds the bound on its rounding error, the exact sum is not 0.
+    // If the rounded sum exceeds its error bound, the exact sum is not 0.
     let size: f64 = terms.iter().map(|term| term.abs()).sum();
     if terms.iter().sum::<f64>().abs() > 8.0 * f64::EPSILON * size {
         return false;
     }
 
-    // Write the exact sum as floats whose bits do not overlap. The sum is 0 only if all these floats are 0.
+    // Write the exact sum as a sum of floats whose bits do not overlap. The exact sum is 0 only if every float is 0.
     let mut parts = [0.0; 6];
     for (count, term) in terms.into_iter().enumerate() {
         let mut rest = term;
@@ -202,7 +205,6 @@ mod tests {
         let mut rng = rand_pcg::Pcg32::seed_from_u64(3);
         let mut found = [0; 2];
         for round in 0..30_000 {
-            // Use points near a line, with so few binary digits that some of them lie exactly on the line.
             let digits = 1 << (round % 12);
             let mut whole = || (rng.next_u32() % (2 * digits + 1)) as f32 - digits as f32;
             let (p, d) = (Vec3::new(whole(), whole(), whole()), Vec3::new(whole(), whole(), whole()));

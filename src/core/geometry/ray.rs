@@ -6,9 +6,14 @@ use glam::{Vec3, Vec3A, Vec4};
 
 /// The points `origin + t * direction` with `t_min <= t < t_max`.
 ///
-/// `direction` may have any length; `t` is measured in lengths of `direction`. A negative `t_min` counts as 0. A ray
-/// hits nothing if its origin or direction is not finite, or if its direction is zero. A ray also hits nothing if its
-/// interval is empty or NaN. A `t` that rounds to infinity lies beyond the end of every ray.
+/// `t` is measured in lengths of `direction`. A negative `t_min` counts as 0. A point whose exact `t` rounds to an
+/// infinite `f32` is not on the ray.
+///
+/// A ray hits nothing in each of these cases:
+/// - The origin or the direction is not finite.
+/// - The direction is zero.
+/// - The interval is empty.
+/// - `t_min` or `t_max` is NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(16))]
 pub struct Ray {
@@ -28,24 +33,25 @@ const _: () = assert!(size_of::<Ray>() == 32);
 const UNREPRESENTABLE: f64 = f32::MAX as f64 + (1_u128 << 103) as f64;
 
 impl Ray {
-    /// The whole half-line: `t` in [0, infinity).
+    /// A ray with the interval [0, infinity).
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
         Self { origin, t_min: 0.0, direction, t_max: f32::INFINITY }
     }
 
-    /// The same ray with another `t_max`.
+    /// Replaces `t_max`.
     pub fn until(self, t_max: f32) -> Self {
         Self { t_max, ..self }
     }
 
-    /// The interval that queries search: from `t_min`, or from 0 if `t_min` is negative, to `t_max`.
+    /// The start and the end of the interval that queries search. A negative `t_min` counts as 0.
     #[inline(always)]
     pub fn interval(&self) -> (f32, f32) {
         (if self.t_min > 0.0 { self.t_min } else { 0.0 }, self.t_max)
     }
 
-    /// The end of the interval for exact values of `t`, exclusive. If `t_max` is infinite, the end is 2^128 - 2^103.
-    /// This is the smallest number that rounds to an infinite `f32`.
+    /// The exclusive upper limit of the exact `t`.
+    ///
+    /// If `t_max` is infinite, the limit is 2^128 - 2^103, the smallest number that rounds to an infinite `f32`.
     #[inline(always)]
     pub fn end(&self) -> f64 {
         f64::from(self.t_max).min(UNREPRESENTABLE)
@@ -56,12 +62,14 @@ impl Ray {
     pub fn is_valid(&self) -> bool {
         let (origin, direction) = self.vectors();
         let finite = (origin.is_finite_mask() & direction.is_finite_mask()).all();
-        // This is false if `t_min` or `t_max` is NaN.
+        // `lasts` is false if `t_min` or `t_max` is NaN.
         let lasts = (0.0 < self.t_max) & (self.t_min < self.t_max);
         finite & direction.cmpne(Vec3A::ZERO).any() & lasts
     }
 
-    /// Converting a `Vec3` to a `Vec3A` would load each component separately.
+    /// Returns the origin and the direction.
+    ///
+    /// A conversion from `Vec3` to `Vec3A` would load each component separately.
     #[inline(always)]
     pub(crate) fn vectors(&self) -> (Vec3A, Vec3A) {
         let Self { origin: o, t_min, direction: d, t_max } = *self;
@@ -75,13 +83,15 @@ impl Ray {
     }
 }
 
-/// The index of a triangle in its mesh. The bits are stored inverted and never 0, so `Option<Hit>` takes 8 bytes.
+/// The index of a triangle in its mesh.
+///
+/// The field stores `!index`, which is never 0. An `Option<Hit>` therefore takes 8 bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PrimId(NonZeroU32);
 
 impl PrimId {
     /// # Panics
-    /// If `index` is `u32::MAX`; a [`Mesh`](crate::geometry::Mesh) never has that many triangles.
+    /// If `index` is `u32::MAX`.
     #[inline(always)]
     pub fn new(index: u32) -> Self {
         Self(NonZeroU32::new(!index).expect("a primitive number is below u32::MAX"))
@@ -100,12 +110,12 @@ impl std::fmt::Debug for PrimId {
     }
 }
 
-/// The primitive that a ray hits, and the ray parameter.
+/// The triangle that a ray hits, and the ray parameter of the hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Ray parameter, in lengths of the direction.
+    /// Ray parameter, in lengths of the ray's direction.
     pub t: f32,
-    /// The triangle of the mesh.
+    /// The triangle that the ray hits.
     pub prim: PrimId,
 }
 

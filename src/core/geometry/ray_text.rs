@@ -9,7 +9,7 @@ use super::Ray;
 
 /// Writes `ox,oy,oz dx,dy,dz`. If the interval is not [0, infinity), ` [t_min,t_max]` follows.
 ///
-/// Every number is the shortest decimal that reads back to the same float. The payload of a NaN is dropped.
+/// Every number except NaN reads back as the same float. A NaN loses its sign and payload.
 impl Display for Ray {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         let [o, d] = [self.origin, self.direction];
@@ -21,13 +21,14 @@ impl Display for Ray {
     }
 }
 
-/// The reason why a text is not a ray, or why its ray can hit nothing.
+/// The reason why a text is not a ray, or why the ray can hit nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct RayTextError(String);
 
-/// Reads the format that [`Display`] writes. Blanks, commas or both separate the numbers. The interval may end with `]`
-/// or `)`: `t_max` is excluded in both cases.
+/// Reads the format that [`Display`] writes. Two numbers are separated by white space, a comma or both.
+///
+/// The interval may end with `]` or `)`. `t_max` is always exclusive.
 impl FromStr for Ray {
     type Err = RayTextError;
 
@@ -80,10 +81,10 @@ impl Ray {
     }
 }
 
-/// The numbers of a text, separated by blanks, a comma or both.
+/// Reads numbers that are separated by white space, a comma or both.
 ///
 /// # Errors
-/// The first field that is not a number. If a number is missing beside a comma, this field is an empty string.
+/// The first field that is not a number. A missing number before or after a comma counts as an empty field.
 pub fn numbers(text: &str) -> Result<Vec<f32>, &str> {
     if text.trim().is_empty() {
         return Ok(vec![]);
@@ -95,7 +96,7 @@ pub fn numbers(text: &str) -> Result<Vec<f32>, &str> {
     fields.map(|number| number.parse().map_err(|_| number)).collect()
 }
 
-/// Shortens a text for a message, because the text may be a whole file in one line.
+/// Shortens a text for an error message.
 fn short(text: &str) -> String {
     const LONGEST: usize = 120;
     match text.char_indices().nth(LONGEST) {

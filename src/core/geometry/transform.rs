@@ -2,13 +2,13 @@
 
 use glam::{DMat3, DVec3, Vec3};
 
-/// The transform of a model: `world = R * S * p + t`.
+/// Maps a point `p` of a model to `R * S * p + t`. `R` rotates, `S` scales and `t` translates.
 ///
-/// `R = Rz * Ry * Rx` with `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and
-/// `Rz = [c s 0; -s c 0; 0 0 1]` (rows). Each matrix rotates in the opposite sense to the usual right-handed rotation.
-/// Sines come from `libm`, and `f64` results are rounded to `f32` once. So every machine computes the same bits.
+/// `R` is `Rz * Ry * Rx`. By rows, `Rx = [1 0 0; 0 c s; 0 -s c]`, `Ry = [c 0 -s; 0 1 0; s 0 c]` and
+/// `Rz = [c s 0; -s c 0; 0 0 1]`. Here `c` and `s` are the cosine and the sine of the angle. These three matrices are
+/// the inverses of the usual right-handed rotations.
 ///
-/// A transform that [mirrors](Self::is_mirror) reverses the orientation of triangles; the caller must restore it.
+/// Points and normals are computed in `f64`, then rounded to `f32`. Every machine computes the same bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     linear: DMat3,
@@ -19,7 +19,9 @@ impl Transform {
     /// The identity.
     pub const IDENTITY: Self = Self { linear: DMat3::IDENTITY, translation: DVec3::ZERO };
 
-    /// Scales by `scale`, rotates by `rotation` (degrees about x, then y, then z), then translates by `translation`.
+    /// Scales by `scale`, then rotates by `rotation`, then translates by `translation`.
+    ///
+    /// The angles of `rotation` are in degrees. The rotation about x comes first, then y, then z.
     pub fn new(rotation: Vec3, scale: Vec3, translation: Vec3) -> Self {
         let [x, y, z] = rotation.to_array().map(sin_cos_degrees);
         let about_x = rows([[1.0, 0.0, 0.0], [0.0, x.1, x.0], [0.0, -x.0, x.1]]);
@@ -29,7 +31,7 @@ impl Transform {
         Self { linear, translation: translation.as_dvec3() }
     }
 
-    /// Whether the transform changes handedness: the scale is negative along one axis or along all three.
+    /// Whether the transform reverses the orientation of triangles.
     pub fn is_mirror(&self) -> bool {
         self.linear.determinant() < 0.0
     }
@@ -39,10 +41,10 @@ impl Transform {
         (self.linear * point.as_dvec3() + self.translation).as_vec3()
     }
 
-    /// `R * S * normal` at unit length, or zero if this product is zero.
+    /// `R * S * normal`, normalized. If this product is zero, the result is zero.
     ///
-    /// The scenes come from a course that transforms normals with the matrix of the points. So normals tilt the wrong
-    /// way under a non-uniform scale. The scenes of the course stretch only flat squares, whose normals stay correct.
+    /// The inverse transpose of `R * S` would be correct for normals. The scenes come from a course that uses
+    /// `R * S` for normals.
     pub fn normal(&self, normal: Vec3) -> Vec3 {
         (self.linear * normal.as_dvec3()).normalize_or_zero().as_vec3()
     }
@@ -52,8 +54,7 @@ fn rows(rows: [[f64; 3]; 3]) -> DMat3 {
     DMat3::from_cols_array_2d(&rows).transpose()
 }
 
-/// Sine and cosine, exact at multiples of 90 degrees. `libm` is inexact at these angles, because angles in radians are
-/// rounded.
+/// Sine and cosine, exact at multiples of 90 degrees. `libm` computes the same bits on every machine.
 fn sin_cos_degrees(degrees: f32) -> (f64, f64) {
     let degrees = f64::from(degrees) % 360.0;
     match degrees / 90.0 {

@@ -4,24 +4,27 @@ use crate::accel::BuildError;
 use crate::build::cells::{CellConfig, Rules};
 use crate::build::sah_cost::CostModel;
 
-/// The options of a [`KdTree`](super::KdTree). "The report" is the student report that sahara reproduces. An option
-/// without effect must have its value in [`REPORT`](Self::REPORT) or in [`SAH`](Self::SAH).
+/// The options of a [`KdTree`](super::KdTree). "The report" is the student report that sahara reproduces.
+///
+/// If an option has no effect, its value must equal the value in [`REPORT`](Self::REPORT) or [`SAH`](Self::SAH).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KdConfig {
     /// The position of a split.
     pub plane: Plane,
-    /// The axis of a median.
+    /// The axis of a median split.
     pub axis: AxisRule,
     /// The condition for a leaf.
     pub stop: Stop,
     /// The traversal algorithm.
     pub traversal: Traversal,
-    /// For [`Stop::Report`] and [`Stop::Leaf`]: a node with fewer triangles is a leaf. At least 1.
+    /// With [`Stop::Report`] or [`Stop::Leaf`], a node with fewer than `leaf` triangles is a leaf.
+    /// Must be at least 1.
     pub leaf: u32,
     /// Whether a node of exactly `leaf` triangles may be split.
     pub limit: Limit,
-    /// For [`Stop::Report`]: a split is discarded if its children share at least this fraction of triangles. In (0, 1].
+    /// [`Stop::Report`] makes a leaf if at least this fraction of triangles would be in both children.
+    /// Must be in (0, 1].
     pub threshold: f32,
     /// The triangles to which the fraction `threshold` refers.
     pub count: CountOf,
@@ -31,16 +34,15 @@ pub struct KdConfig {
     pub equal: Equal,
     /// When the traversal of a ray stops.
     pub exit: Exit,
-    /// Whether each ray has a small hashed mailbox. A ray does not test a triangle again while its mailbox contains the
-    /// triangle.
+    /// Whether each ray has a small hashed mailbox. A triangle in the mailbox of a ray is not tested again.
     pub mailbox: bool,
     /// SAH cost of an inner node. Must be positive.
     pub traversal_cost: f32,
     /// SAH cost of a block of eight triangles. Must be positive.
     pub intersection_cost: f32,
-    /// Fraction of its cost that a split saves if it cuts off empty space, in [0, 1). Wald and Havran use 0.2.
+    /// An empty child reduces the SAH cost of a split by this fraction, in [0, 1). Wald and Havran use 0.2.
     pub empty_bonus: f32,
-    /// Maximum number of references, as a multiple of the number of triangles. At least 1.
+    /// Maximum number of references, as a multiple of the number of triangles. Must be at least 1.
     pub duplication: f32,
 }
 
@@ -54,7 +56,8 @@ pub enum Plane {
     SpatialMedian,
     /// The median of the centroids of the node's triangles.
     CentroidMedian,
-    /// The plane of least SAH cost of 32 per axis (Hunt, Mark, Stoll 2006). Large nodes use a sample of triangles.
+    /// The plane of least SAH cost among a few dozen per axis (Hunt, Mark, Stoll 2006).
+    /// In large nodes, a sample of triangles estimates the cost.
     SahBinned,
     /// The plane of least SAH cost among all faces of the boxes of clipped triangles.
     SahSweep,
@@ -64,22 +67,21 @@ pub enum Plane {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AxisRule {
-    /// Depth modulo 3.
+    /// The number of the axis is the depth of the node modulo 3.
     Cyclic,
     /// The longest axis of the cell.
     Longest,
 }
 
-/// The rule that makes a node a leaf. Every node is also a leaf at depth 8 + 1.3 log2 n, or if its split would exceed
-/// `duplication`. With a median, a third split in a row without progress is replaced by a leaf.
+/// The condition for a leaf. A depth limit and `duplication` also make leaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stop {
-    /// Fewer than `leaf` triangles, or a split whose children share at least the fraction `threshold` of triangles.
+    /// The options `leaf` and `threshold` determine the leaves.
     Report,
-    /// Fewer than `leaf` triangles.
+    /// The option `leaf` determines the leaves.
     Leaf,
-    /// By SAH cost, the selected split is not cheaper than testing all triangles.
+    /// A node is a leaf if the chosen split would not reduce the SAH cost.
     Sah,
 }
 
@@ -87,9 +89,9 @@ pub enum Stop {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Traversal {
-    /// Test the boxes of both children, as the report does.
+    /// Intersects the ray with the boxes of both children, as the report does.
     ChildBoxes,
-    /// Cut the ray's interval at the plane.
+    /// Cuts the interval of the ray at the split plane.
     PlaneIntervals,
 }
 
@@ -97,9 +99,9 @@ pub enum Traversal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Limit {
-    /// A leaf has fewer than `leaf` triangles.
+    /// A node with fewer than `leaf` triangles is a leaf.
     Below,
-    /// A leaf has at most `leaf` triangles.
+    /// A node with at most `leaf` triangles is a leaf.
     AtMost,
 }
 
@@ -107,13 +109,13 @@ pub enum Limit {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CountOf {
-    /// The triangles of the node. A split that reaches the threshold is discarded.
+    /// The triangles of the node. If the fraction reaches `threshold`, the split is discarded.
     Parent,
-    /// The triangles of each child. A child that reaches the threshold is not split further.
+    /// The triangles of each child. If the fraction reaches `threshold`, the child is not split.
     Child,
 }
 
-/// The median of an even number of values, and how often a shared corner counts.
+/// The definition of the median of vertex coordinates or centroids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Median {
@@ -129,9 +131,9 @@ pub enum Median {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Equal {
-    /// Both children. Only a triangle strictly below or strictly above the plane goes to a single child.
+    /// Both children.
     Both,
-    /// The child below if no vertex is above the plane, otherwise both children.
+    /// If another vertex is above the plane, both children. Otherwise only the child below the plane.
     Below,
 }
 
@@ -141,7 +143,7 @@ pub enum Equal {
 pub enum Exit {
     /// When no nearer hit can follow.
     Nearest,
-    /// After the first leaf with a hit at any distance, as the report literally says. Nearer hits may be lost.
+    /// After the first leaf with a hit. Nearer hits may be lost.
     FirstLeaf,
 }
 

@@ -1,4 +1,4 @@
-//! Selects split planes without a cost: a median or the middle of the cell. Does not clip triangles to their cells.
+//! Splits nodes at a median or at the middle of the cell. Triangles are not clipped to the cell.
 
 use super::config::{AxisRule, CountOf, Equal, KdConfig, Median, Plane};
 use crate::build::cells::{Content, Context, NodeState};
@@ -45,14 +45,14 @@ impl Triangles {
     }
 
     fn pays(&self, context: &Context<KdConfig>, state: &NodeState, cut: Cut, below: usize, above: usize) -> bool {
-        // Vertices may lie outside the cell, and so may their median.
+        // The median may lie outside the cell, because triangles are not clipped to the cell.
         let inside = state.cell.min[cut.axis] < cut.plane && cut.plane < state.cell.max[cut.axis];
         let (model, areas) = (context.config.costs(), SideAreas::new(&state.cell, cut.axis));
         inside && model.cell_split(&areas, cut.plane, [below, above]) < model.leaf(self.ids.len())
     }
 }
 
-/// The median of a nonempty list.
+/// The median of `values`, which must not be empty.
 fn middle(mut values: Vec<f32>, rule: Median) -> f32 {
     let (middle, even) = ((values.len() - 1) / 2, values.len().is_multiple_of(2));
     let (_, &mut lower, rest) = values.select_nth_unstable_by(middle, f32::total_cmp);

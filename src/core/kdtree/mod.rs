@@ -1,4 +1,4 @@
-//! KD-trees. `median-kd` is the tree of the student report that sahara reproduces. `sah-kd` is an SAH tree.
+//! KD-trees. `median-kd` is the tree of a student report. `sah-kd` is an SAH tree.
 
 mod config;
 mod median;

@@ -1,12 +1,15 @@
 use crate::accel::BuildError;
 
-/// The child below the plane follows its parent. The parent stores the index of the child above.
+/// In the array of nodes, the child below the split plane is stored directly after its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(super) struct Node {
-    /// Inner node: the bits of the split coordinate. Leaf: the index of the first block (in a build: first reference).
+    /// In an inner node, the bits of the split coordinate. In a leaf, the index of the first block.
+    ///
+    /// During the build, a leaf stores the index of its first reference instead.
     payload: u32,
-    /// Low 2 bits: the axis, or 3 in a leaf. High 30 bits: the index of the child above, or a leaf's reference count.
+    /// The low 2 bits are the axis, or 3 in a leaf. In an inner node, the high 30 bits are the index of the child
+    /// above the plane. In a leaf, the high 30 bits are the number of references.
     tag: u32,
 }
 
@@ -36,12 +39,14 @@ impl Limits {
 impl Node {
     const LEAF: u32 = 3;
 
-    /// `axis` is below 3. During a build, `above` may exceed 30 bits and wrap. [`Limits::check`] then rejects the tree.
+    /// `axis` must be below 3.
+    ///
+    /// The shift may drop high bits of `above` during a build. [`Limits::check`] then rejects the tree.
     pub fn inner(axis: usize, split: f32, above: u32) -> Self {
         Self { payload: split.to_bits(), tag: above << 2 | axis as u32 }
     }
 
-    /// Like `above`, `references` may wrap during a build.
+    /// The shift may drop high bits of `references` during a build. [`Limits::check`] then rejects the tree.
     pub fn leaf(first: u32, references: u32) -> Self {
         Self { payload: first, tag: references << 2 | Self::LEAF }
     }

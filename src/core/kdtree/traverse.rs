@@ -1,19 +1,13 @@
-//! One traversal for closest hit and any hit, in two variants: plane intervals and child boxes.
+//! Traverses KD-trees for closest hit and any hit, by plane intervals or by child boxes.
 //!
-//! **No hit is lost.** Let a ray hit a triangle at the point p and the exact parameter t* in its interval.
+//! **No hit is lost**, except with [`Exit::FirstLeaf`]. Let p be the point of a hit on a triangle.
 //!
-//! - The build clips references outward or not at all. So some leaf whose closed cell contains p references the
-//!   triangle.
-//! - Both variants skip a child only if its interval is empty or begins after the nearest hit so far. Before this test,
-//!   they move the interval outward by more than the rounding error of plane crossings (see [`Line`]).
-//! - If the crossing at which an interval begins overflows, plane intervals replace the crossing by a finite number.
-//!   Child boxes replace the end of the search by infinity if a crossing before this end may overflow.
-//! - So both variants visit the leaf of p, or have found another hit with a computed t before t*. The other hit is
-//!   nearer, or farther by at most the error of its triangle test.
-//! - With the exact test, the computed t of a hit is never below its exact t. So the result is the nearest hit and,
-//!   among equally near hits, the hit with the lowest number.
-//!
-//! Only [`Exit::FirstLeaf`] may lose nearer hits.
+//! - At least one leaf references the triangle and has p in its closed cell.
+//! - A child is skipped only if the ray's interval in this child is empty or begins after the nearest known hit.
+//! - The ray's interval in a child includes slack for the rounding of plane crossings (see [`Line`]).
+//! - A plane crossing may overflow to infinity. For plane intervals, [`finite_entry`] makes an infinite entry finite.
+//!   For child boxes, [`open_end`] moves an end near the largest float to infinity.
+//! - With the exact triangle test, closest hit returns the nearest hit. At equal `t`, the lowest triangle number wins.
 
 use std::mem::MaybeUninit;
 
@@ -29,7 +23,7 @@ use crate::traversal::line::{Line, after, before, finite_entry, open_end};
 use crate::traversal::walk::Walk;
 use crate::triangle::TriangleTest;
 
-/// The stack contains at most one node per level, and two of the lowest level. No level exceeds [`DEEPEST`].
+/// The stack contains at most `DEEPEST + 1` nodes, because no node is deeper than [`DEEPEST`].
 const STACK: usize = 64;
 const _: () = assert!(STACK > DEEPEST as usize);
 
@@ -59,7 +53,7 @@ enum Leaves {
     Boxes(Stack<(u32, Aabb, f32)>),
 }
 
-/// The entries are uninitialised, because initialising them takes as long as a short traversal.
+/// To save time, only the first `len` entries are initialised.
 struct Stack<E> {
     entries: [MaybeUninit<E>; STACK],
     len: usize,
@@ -82,7 +76,7 @@ impl<E: Copy> Stack<E> {
     #[inline(always)]
     fn pop(&mut self) -> Option<E> {
         self.len = self.len.checked_sub(1)?;
-        // SAFETY: `push` writes an entry before it counts it, and the popped entry was below the old length.
+        // SAFETY: `push` has initialised every entry below the old `len`.
         Some(unsafe { self.entries[self.len].assume_init() })
     }
 }
@@ -92,7 +86,7 @@ impl Leaves {
     fn enter<T: TriangleTest>(tree: &KdTree<T>, line: &Line, t_min: f32, t_max: f32) -> Option<Self> {
         Some(match tree.config.traversal {
             Traversal::PlaneIntervals => {
-                // The interval needs no slack before 0, because a computed exit is negative only if the exact exit is.
+                // The interval needs no slack before 0, because rounding never makes a positive crossing negative.
                 let (t0, t1) = line.clip(&tree.bounds, before(t_min).max(0.0), after(t_max))?;
                 Self::Intervals(Stack::with((0, t0, t1)))
             }
@@ -145,8 +139,8 @@ fn by_intervals<O: Observer>(
         let t = line.crossing(axis, node.split());
         let (first, second) = if line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
 
-        // The ends of the interval are moved outward by more than twice the error of a crossing. So the crossing needs
-        // no slack here. If the crossing is NaN, both comparisons are false and both children get the whole interval.
+        // The comparisons of `t` with `t1` and `t0` need no slack, because `t0` and `t1` include enough slack. If `t`
+        // is NaN, both children get the whole interval.
         if t > t1 {
             at = first;
         } else if t < t0 {
@@ -160,7 +154,7 @@ fn by_intervals<O: Observer>(
     }
 }
 
-/// `end` is a result of [`open_end`].
+/// `end` must be a result of [`open_end`].
 #[inline(always)]
 fn by_boxes<O: Observer>(
     stack: &mut Stack<(u32, Aabb, f32)>,
@@ -180,8 +174,8 @@ fn by_boxes<O: Observer>(
             return Some(node);
         }
 
-        // First visit the child that the ray enters first. If the ray enters both children at once, first visit the
-        // child that it leaves first.
+        // First visit the child with the smaller entry `t`. If the entries are equal, first visit the child with the
+        // smaller exit `t`.
         observer.inner();
         let (below, above) = cell.cut(node.axis(), node.split());
         let (in_below, in_above) = (line.clip(&below, t_min, end), line.clip(&above, t_min, end));

@@ -12,9 +12,9 @@ use crate::traversal::pages;
 use crate::traversal::walk::walked_queries;
 use crate::triangle::{BLOCK, TriangleTest};
 
-/// A kd-tree with 8-byte nodes in depth-first order and blocks of triangles in the leaves.
+/// A kd-tree with 8-byte nodes in depth-first order.
 ///
-/// The tree is the same for every number of threads.
+/// The tree does not depend on the number of threads.
 ///
 /// # References
 /// Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N), 2006. Havran: Heuristic
@@ -94,7 +94,7 @@ pub(super) fn plan(mesh: &Mesh, config: &KdConfig, limits: &Limits) -> Result<Pl
             grow(&context, Binned::all(&context))
         }
     };
-    // No number in a node exceeds these totals.
+    // No index or count in a node exceeds these totals.
     limits.check(plan.nodes.len(), plan.references.len())?;
     Ok(plan)
 }

@@ -3,15 +3,17 @@
 //! # Proof
 //! Let u = 2^-53. The inputs are finite `f32` numbers, which `f64` represents exactly.
 //!
-//! *Range.* A rounded product of two components has 53 bits and is 0 or at least 2^-298. The difference of two such
-//! products is therefore 0 or at least 2^-350. The product with a third component is 0 or at least 2^-499. All values
-//! are below 2^390. Hence no operation overflows or underflows, and every operation has a relative error of at most u.
+//! *Range.* All bounds in this paragraph are bounds of magnitudes. A component of a vector is 0 or at least 2^-149. A
+//! rounded product of two components is 0 or at least 2^-298. This product has at most 53 significant bits. The
+//! difference of two rounded products is therefore 0 or at least 2^-350. The product of this difference and a third
+//! component is 0 or at least 2^-499. All values are below 2^390. Hence no operation overflows or underflows. Hence
+//! every operation has a relative error of at most u.
 //!
 //! *Error bound.* A triple product `x . cross(y, z)` is the sum of six terms `x_i y_j z_k`. Rounding multiplies each
-//! term by at most eight factors (1 + e) with |e| <= u. Let P be the sum of the magnitudes of the terms, and
+//! term by at most eight factors (1 + e) with |e| <= u. Let P be the sum of the magnitudes of the terms. Let
 //! g = 8u / (1 - 8u). The error of the computed triple product is at most g P (Higham 2002, section 3.1). The computed
-//! sum of magnitudes is at least (1 - g) P. Hence the error is less than 16u times the computed sum. The multiplication
-//! by 16u, a power of two, is exact.
+//! sum of magnitudes is at least (1 - g) P. Hence the error is at most 16u times the computed sum of magnitudes. The
+//! multiplication by 16u is exact, because 16u is a power of two.
 //!
 //! # References
 //! Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. 1997 (the idea of the
@@ -26,7 +28,7 @@ use crate::geometry::Ray;
 /// The factor 16u of the proof above.
 const BOUND: f64 = 16.0 / (1u64 << 53) as f64;
 
-/// Exceeds the relative error of four roundings.
+/// This factor exceeds the relative error of four roundings, and the error of `ExactT::approximate`.
 const OUTWARD: f64 = 8.0 / (1u64 << 53) as f64;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +72,7 @@ impl TripleProduct {
     }
 }
 
-/// Uses the signed volumes of [`exact::hit`](crate::exact::hit). All inputs must be finite.
+/// Tests the line of `ray` in `f64`, by the rules of [`exact::hit`](crate::exact::hit). All inputs must be finite.
 pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let corners = corners.map(|p| p.as_dvec3());
@@ -81,7 +83,7 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
         return Proof::Missed;
     }
 
-    // The error bound requires that each edge component is rounded only once.
+    // The error bound permits only one rounding of each component of an edge.
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
     let whole = TripleProduct::of(direction, e1, e2);
     match whole.sign() {
@@ -91,13 +93,13 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
     }
 }
 
-/// The sign of the denominator must be certain, and not 0.
+/// `denominator.sign()` must be `Some(Less)` or `Some(Greater)`.
 fn quotient(numerator: TripleProduct, denominator: TripleProduct) -> Span {
     let sign = denominator.value.signum();
     let (value, denominator) =
         (numerator.value * sign, TripleProduct { value: denominator.value * sign, ..denominator });
-    // Each bound and each quotient is rounded once. No quotient underflows, because nonzero bounds lie between 2^-600
-    // and 2^391.
+    // Each of the four bounds is rounded once. Each quotient is rounded once. The magnitude of a nonzero bound is
+    // between 2^-600 and 2^391, so no quotient underflows.
     let (top_low, top_high) = (value - numerator.error, value + numerator.error);
     let (small, large) = (denominator.value - denominator.error, denominator.value + denominator.error);
     let low = top_low / if top_low < 0.0 { small } else { large };
@@ -117,7 +119,6 @@ mod tests {
             Proof::Missed => assert_eq!(truth, None, "{ray:?} {corners:?}"),
             Proof::Hit(span) => {
                 let t = truth.as_ref().expect("the filter has proved it");
-                // The approximation has fewer roundings than `outward` allows.
                 let near = Span::outward(t.approximate(), t.approximate());
                 assert!(span.low <= near.high && near.low <= span.high, "{span:?} {near:?}");
             }

@@ -18,7 +18,7 @@ pub use outcome::{DepthRule, Outcome, outcome, ulp};
 pub struct Truth {
     /// The exact `t`.
     pub t: ExactT,
-    /// The numbers of all triangles that are hit at `t`, ascending and never empty.
+    /// The triangle numbers of all hits at `t`, in ascending order. The list is not empty.
     pub ids: Vec<u32>,
 }
 
@@ -33,34 +33,28 @@ impl Truth {
         self.ids.binary_search(&hit.prim.index()).is_ok()
     }
 
-    /// The rounded `t` and the lowest triangle number. An exact triangle test must return this hit.
+    /// The rounded `t` and the lowest triangle number.
     pub fn first(&self) -> (f32, u32) {
         (self.rounded(), self.ids[0])
     }
 }
 
 /// Finds the exact hits of rays in one mesh.
-///
-/// A tree of boxes selects triangles. Exact sums of floats ([`exact`]) decide the triangles that `f64` arithmetic
-/// leaves undecided.
-///
-/// The triangle test [`Exact`](crate::triangle::Exact) uses the same sums. The unit tests therefore compare the oracle
-/// with independent rational arithmetic.
 pub struct Oracle {
     mesh: Arc<Mesh>,
     tree: tree::Tree,
 }
 
 impl Oracle {
-    /// Builds the tree of boxes.
+    /// Builds a bounding volume hierarchy over the triangles of `mesh`.
     pub fn new(mesh: &Arc<Mesh>) -> Self {
         Self { mesh: mesh.clone(), tree: tree::Tree::new(mesh) }
     }
 
     /// The exact nearest hit of `ray` in its half-open interval.
     ///
-    /// `None` if the ray is invalid or hits no triangle. Triangles are closed. A ray in the plane of a triangle misses
-    /// this triangle.
+    /// The result is `None` if the ray is invalid or hits no triangle. Edges and corners are parts of a triangle. A ray
+    /// in the plane of a triangle misses this triangle.
     pub fn nearest(&self, ray: &Ray) -> Option<Truth> {
         if !ray.is_valid() {
             return None;
@@ -71,7 +65,7 @@ impl Oracle {
     }
 }
 
-/// Like [`Oracle::nearest`], but tests every triangle exactly.
+/// The exact nearest hit of `ray`, by an exact test of every triangle.
 pub fn nearest(ray: &Ray, mesh: &Mesh) -> Option<Truth> {
     if !ray.is_valid() {
         return None;

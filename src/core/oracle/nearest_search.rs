@@ -35,9 +35,9 @@ impl<'a> NearestSearch<'a> {
         Some(Truth { t: found.t?, ids: found.ids })
     }
 
-    /// Tests triangle `id` and returns an upper bound of the nearest `t`.
+    /// Tests triangle `id`. The result is an upper bound for the `t` of the nearest hit.
     pub fn triangle(&mut self, id: u32) -> f64 {
-        // A triangle with the corners of the nearest triangle is hit at the same `t`.
+        // Two triangles with equal corners are hit at equal `t`.
         if let Some(nearest) = self.nearest.as_mut().filter(|n| n.corners == self.mesh.corners(id)) {
             nearest.ids.push(id);
         } else if let Some(mut found) = self.find(id) {

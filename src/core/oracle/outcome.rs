@@ -6,25 +6,24 @@ use crate::geometry::Hit;
 /// The tolerance for the depth of a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthRule {
-    /// The relative error that is allowed on a nearest primitive.
+    /// The allowed relative error of a hit on one of the nearest primitives.
     right: f64,
-    /// The relative error that is allowed on any other primitive.
+    /// The allowed relative error of a hit on any other primitive.
     other: f64,
-    /// The error that is always allowed, in ulps of the exact `t` as an `f32`.
+    /// The absolute error that is always allowed, in multiples of `ulp(t)`.
     ulps: f64,
 }
 
 impl DepthRule {
-    /// Rejects errors above 1 % on a nearest primitive, and above 0.1 % on another primitive. Such errors are visible
-    /// in a picture.
+    /// The limits of the relative error are 1 % (nearest primitives) and 0.1 % (other primitives).
     pub const COARSE: Self = Self { right: 1e-2, other: 1e-3, ulps: 0.0 };
 
-    /// Rejects errors above both 4 ulps and 1e-6 of `t`.
+    /// The limit of the error is the maximum of 4 ulps and `1e-6 * t`.
     pub const STRICT: Self = Self { right: 1e-6, other: 1e-6, ulps: 4.0 };
 
-    /// Whether `found` is within the tolerance of the exact `t`, which must not be negative.
+    /// Whether the depth `found` is within the tolerance. The exact depth `t` must not be negative.
     ///
-    /// `right` means that the primitive is one of the nearest.
+    /// `right` states whether the hit is on one of the nearest primitives.
     pub fn allows(self, t: f64, found: f32, right: bool) -> bool {
         let allowed = (t * if right { self.right } else { self.other }).max(ulp(t) * self.ulps);
         // The comparison is false if `found` is NaN.
@@ -35,17 +34,17 @@ impl DepthRule {
 /// The outcome of one ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
-    /// The ray misses, and the structure returns a miss.
+    /// The structure returns a miss for a ray that misses.
     RightMiss,
     /// A hit on one of the nearest primitives, at a depth within the tolerance.
     Right,
-    /// The ray hits, and the structure returns a miss.
+    /// The structure returns a miss for a ray that hits.
     Missed,
-    /// The ray misses, and the structure returns a hit.
+    /// The structure returns a hit for a ray that misses.
     FalseHit,
-    /// A hit at a wrong depth, on any primitive.
+    /// A hit on any primitive, at a depth outside the tolerance.
     WrongDepth,
-    /// A hit at a depth within the tolerance, but on a primitive that is not among the nearest.
+    /// A hit on a primitive that is not nearest, at a depth within the tolerance.
     WrongPrimitive,
 }
 
@@ -66,7 +65,7 @@ pub fn outcome(truth: Option<&Truth>, answer: Option<Hit>, rule: DepthRule) -> O
     }
 }
 
-/// The distance between neighbouring `f32` numbers at `t`, which must not be negative.
+/// The distance between neighbouring `f32` numbers at `t`. `t` must not be negative.
 pub fn ulp(t: f64) -> f64 {
     let exponent = if t > 0.0 { libm::ilogb(t).clamp(-126, 127) } else { -126 };
     libm::ldexp(1.0, exponent - 23)

@@ -9,7 +9,7 @@ use crate::triangle::tests::{Number, any, grid, point, unit};
 pub struct Numbers {
     random: Pcg32,
     number: Number,
-    /// A power of two. Small powers make all coordinates denormal.
+    /// A power of two.
     scale: f32,
 }
 
@@ -38,7 +38,6 @@ impl Numbers {
     }
 }
 
-/// Rational arithmetic shares no code with the oracle or with `Exact`.
 #[test]
 fn rational_arithmetic_agrees() {
     let mut hits = 0;

@@ -1,19 +1,18 @@
 //! A bounding volume hierarchy that loses no hit.
 //!
 //! # No hit is lost
-//! Minima and maxima of `f32` are not rounded, so the box of a node contains its triangles.
+//! Minima and maxima of `f32` are exact. Hence the box of a node contains the triangles of the node.
 //!
-//! Let a ray hit a triangle in a box at the exact `t`. If a direction component `d` is 0, comparisons of floats decide
-//! exactly. Otherwise `t` is between `(low - o) / d` and `(high - o) / d`. Each quotient has two roundings in `f64`,
-//! and neither overflows nor underflows. [`Span::outward`] moves each quotient outward by more than its error.
-//!
-//! The bound is never less than the exact `t` of the nearest hit so far. Hence a node with an empty interval contains
-//! no nearer hit.
+//! Let a ray hit a triangle of a node at the exact `t`. On one axis, let the box of the node reach from `low` to
+//! `high`. Let `o` and `d` be the components of the origin and the direction on this axis. If `d` is 0, `o` is between
+//! `low` and `high`. Otherwise `t` is between `(low - o) / d` and `(high - o) / d`. In `f64`, each quotient has two
+//! roundings. No quotient overflows or underflows. [`Span::outward`] moves each quotient outward by at least the
+//! rounding error.
 
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
 
-/// A binary BVH. Each child has half of its parent's triangles.
+/// A binary BVH.
 pub struct Tree {
     nodes: Vec<Node>,
     ids: Vec<u32>,
@@ -25,7 +24,7 @@ struct Node {
 }
 
 enum NodeKind {
-    /// The first child is the next node.
+    /// The first child follows its parent in `nodes`.
     Inner {
         second: u32,
     },
@@ -37,8 +36,8 @@ enum NodeKind {
 
 const LEAF: usize = 4;
 
-/// The stack holds at most one node per level. After 28 halvings, the largest mesh (2^30 triangles) is divided into
-/// leaves of 4 triangles.
+/// The stack holds at most one node for each inner node on a path from the root. A path has at most 28 inner nodes,
+/// because a mesh has at most 2^30 triangles.
 const STACK: usize = 32;
 
 impl Tree {
@@ -60,7 +59,7 @@ impl Tree {
             self.ids.extend(boxes.iter().map(|(id, _)| *id));
             return;
         }
-        // Any split gives the same hits.
+        // The choice of the split does not change the hits.
         let middle = |b: &Aabb| b.min * 0.5 + b.max * 0.5;
         let axis = Aabb::of_points(boxes.iter().map(|(_, b)| middle(b))).longest_axis();
         let half = boxes.len() / 2;
@@ -71,9 +70,10 @@ impl Tree {
         self.grow(second);
     }
 
-    /// Calls `test` at least for every triangle that `ray` hits up to `bound`. `ray` must be valid.
+    /// Calls `test` for every triangle that `ray` hits at a `t` of at most `bound`. Other triangles may also be tested.
+    /// `ray` must be valid.
     ///
-    /// `test` returns the bound for the remaining triangles. This bound must not increase.
+    /// The result of `test` replaces `bound`. The result must not exceed the previous `bound`.
     pub fn visit(&self, ray: &Ray, mut bound: f64, mut test: impl FnMut(u32) -> f64) {
         let enter = |index: u32, bound: f64| Some((index, near(ray, &self.nodes.get(index as usize)?.bounds, bound)?));
         let mut stack = [(0, 0.0); STACK];
@@ -112,7 +112,7 @@ impl Tree {
     }
 }
 
-/// A lower bound of the `t` of all hits in the box. `None` proves that the box has no hit up to `bound`.
+/// A lower bound for the `t` of every hit in the box. The result is `None` only if the box has no hit up to `bound`.
 fn near(ray: &Ray, bounds: &Aabb, bound: f64) -> Option<f64> {
     let (mut near, mut far) = (f64::from(ray.interval().0), bound);
     let Ray { origin, direction, .. } = ray;

@@ -3,12 +3,12 @@ use std::arch::x86_64::*;
 use super::avx_double::F64x8;
 use super::{Arithmetic, EightLanes, Lanes};
 
-/// Eight lanes in one register, for machines with AVX2 and FMA. `MASKS` also requires AVX-512 F and VL.
+/// Eight lanes in one register, for machines with AVX2 and FMA. `MASKS = true` also requires AVX-512 F and VL.
 ///
-/// Only [`dispatch`](super::dispatch) uses this type, in functions that are compiled for these instructions. `dispatch`
-/// calls these functions only for a [`Level`](super::Level) that has the instructions.
+/// Only [`dispatch`](super::dispatch) may use this type. `dispatch` must use this type only if the machine has the
+/// instructions.
 ///
-/// Loads and stores need no alignment. Arrays are as large as a register, unless a comment states another size.
+/// Loads and stores need no alignment. An array of eight `f32` or eight `u32` is as large as a register.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx<const MASKS: bool>(__m256);
 
@@ -82,7 +82,7 @@ impl<const MASKS: bool> Lanes<8> for Avx<MASKS> {
     }
 }
 
-/// `MEMBERS[set]` lists the lanes of `set` in ascending order, then zeros.
+/// `MEMBERS[set]` is the ascending list of the lanes in the bit set `set`, padded with zeros.
 static MEMBERS: [[u8; 8]; 256] = {
     let mut table = [[0; 8]; 256];
     let mut set = 0;
@@ -108,7 +108,7 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     #[inline(always)]
     fn transpose([a, b, c, d, e, f, g, h]: [Self; 8]) -> [Self; 8] {
-        // SAFETY: the machine has the instruction, see `Avx`.
+        // SAFETY: the machine has the instructions, see `Avx`.
         unsafe {
             let pairs = |x: Self, y: Self| (_mm256_unpacklo_ps(x.0, y.0), _mm256_unpackhi_ps(x.0, y.0));
             let ((ab0, ab1), (cd0, cd1), (ef0, ef1), (gh0, gh1)) = (pairs(a, b), pairs(c, d), pairs(e, f), pairs(g, h));
@@ -140,11 +140,12 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
         keys: *mut f32,
         chosen: *mut u32,
     ) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`. By contract, eight keys and eight values may be written.
+        // SAFETY: the machine has the instructions, see `Avx`. By contract, `keys` and `chosen` are valid for writes of
+        // eight elements.
         unsafe {
             let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, limit.0);
             let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
-            // A permutation uses only the three low bits of each index.
+            // A permutation uses only bits 0 to 2 of each index.
             let order = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
             let set = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hit, order)) as u32;
             let lanes = if MASKS {
@@ -163,7 +164,8 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
     #[inline(always)]
     unsafe fn compress(self, limit: Self, values: &[u32; 8], chosen: *mut u32) -> u32 {
-        // SAFETY: the machine has the instructions, see `Avx`. By contract, eight values may be written.
+        // SAFETY: the machine has the instructions, see `Avx`. By contract, `chosen` is valid for writes of eight
+        // elements.
         unsafe {
             let set = self.le(limit);
             let values = _mm256_loadu_si256(values.as_ptr().cast());
@@ -223,6 +225,6 @@ impl<const MASKS: bool> EightLanes for Avx<MASKS> {
 
 #[inline(always)]
 fn members(set: u32) -> __m256i {
-    // SAFETY: the machine has the instructions, see `Avx`. A row of the table has the eight bytes that are read.
+    // SAFETY: the machine has the instructions, see `Avx`. A row of `MEMBERS` has eight bytes.
     unsafe { _mm256_cvtepu8_epi32(_mm_loadl_epi64(MEMBERS[(set & 0xff) as usize].as_ptr().cast())) }
 }

@@ -4,7 +4,7 @@ use super::{Arithmetic, indexed};
 
 /// Eight lanes of `f64` in two AVX registers.
 ///
-/// Only code over [`Avx`](super::avx::Avx) lanes constructs this type, so the machine has AVX2 and FMA.
+/// Only [`Avx`](super::avx::Avx) uses this type. `Avx` requires a machine with AVX2 and FMA.
 #[derive(Clone, Copy, Debug)]
 pub struct F64x8(pub(super) [__m256d; 2]);
 

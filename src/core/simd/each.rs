@@ -2,7 +2,7 @@ use std::mem::MaybeUninit;
 
 /// Like `array::from_fn`, but always inlined.
 ///
-/// A function that is not inlined is compiled without the instructions of a [`Level`](super::Level).
+/// Only inlined functions are compiled with the instructions of a SIMD [`Level`](super::Level).
 #[inline(always)]
 pub fn indexed<const N: usize, B: Copy>(f: impl Fn(usize) -> B) -> [B; N] {
     let mut results = [const { MaybeUninit::uninit() }; N];

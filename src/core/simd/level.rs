@@ -8,10 +8,11 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use super::avx::Avx;
 use super::{EightLanes, Portable};
 
-/// A SIMD instruction set. All levels return the same hits, bit for bit.
+/// A SIMD instruction set.
 ///
-/// A value of this type proves that the machine has the instructions. Other crates therefore cannot construct `Avx2` or
-/// `Avx512`:
+/// Searches find the same hits at every level, bit for bit.
+///
+/// The machine may lack `Avx2` and `Avx512`. Other crates cannot construct these levels:
 ///
 /// ```compile_fail,E0603
 /// let level = sahara_core::simd::Level::Avx512;
@@ -24,7 +25,7 @@ pub enum Level {
     /// AVX2, FMA, BMI1, BMI2, LZCNT and POPCNT.
     #[non_exhaustive]
     Avx2,
-    /// The instructions of `Avx2`, and AVX-512 F and VL.
+    /// AVX-512 F, AVX-512 VL and the instructions of `Avx2`.
     #[non_exhaustive]
     Avx512,
 }
@@ -37,23 +38,22 @@ pub struct UnknownLevel {
     known: String,
 }
 
-/// A computation over eight lanes that runs on any level.
+/// A computation over eight lanes, compiled for each level.
 pub trait Kernel {
-    /// The result.
+    /// The result of the computation.
     type Output;
 
     /// Runs the computation on lanes of type `L`.
     ///
-    /// This function and the lane functions that it calls must be `#[inline(always)]`. Only inlined code is compiled
-    /// for the instructions of `L`.
+    /// This function and all functions over `L` lanes must be `#[inline(always)]`. Only inlined code is compiled for
+    /// the instructions of `L`.
     fn run<L: EightLanes>(self) -> Self::Output;
 }
 
 static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
 const UNCHOSEN: u8 = u8::MAX;
 
-/// Each level adds a compiled copy of every search. A build for one processor therefore has only the portable level and
-/// the highest level of the processor.
+/// Each level adds a compiled copy of every kernel. Without the feature `all-levels`, a build for AVX-512 omits `Avx2`.
 const WITH_AVX2: bool =
     cfg!(all(target_arch = "x86_64", any(feature = "all-levels", not(target_feature = "avx512vl"))));
 const WITH_AVX512: bool = cfg!(all(
@@ -64,7 +64,7 @@ const WITH_AVX512: bool = cfg!(all(
 impl Level {
     const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// The name on the command line and in exports.
+    /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Portable => "portable",
@@ -80,7 +80,7 @@ impl Level {
 
     #[cfg(target_arch = "x86_64")]
     fn is_available(self) -> bool {
-        // This list must contain all features that the functions `avx2` and `avx512` below enable.
+        // These checks must cover all features that the functions `avx2` and `avx512` enable.
         let bits = is_x86_feature_detected!("bmi1")
             && is_x86_feature_detected!("bmi2")
             && is_x86_feature_detected!("lzcnt")
@@ -99,7 +99,7 @@ impl Level {
         self == Self::Portable
     }
 
-    /// The level that structures use, by default the highest available level.
+    /// The level of the whole process. The default is the highest available level.
     #[inline(always)]
     pub fn current() -> Self {
         match CURRENT.load(Ordering::Relaxed) {
@@ -153,8 +153,8 @@ impl FromStr for Level {
 pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     debug_assert!(level.is_available());
     match level {
-        // SAFETY: the machine has the instructions. Levels come only from `available` and `current`, which return a
-        // level only after `is_available` has detected its instructions.
+        // SAFETY: the machine has the instructions. Callers obtain this level only from `available` or `current`. Both
+        // functions return this level only after `is_available` has detected the instructions.
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 if WITH_AVX2 => unsafe { avx2(kernel) },
         // SAFETY: the machine has the instructions, as for `Avx2`.
@@ -164,7 +164,7 @@ pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     }
 }
 
-// Not inlined: each kernel needs a separate stack frame.
+// Not inlined, to give each kernel a separate stack frame.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]

@@ -15,7 +15,7 @@ pub use level::{Kernel, Level, UnknownLevel, dispatch};
 pub use portable::Portable;
 pub use vector::LaneVec3;
 
-/// `N` lanes of one type of float.
+/// `N` lanes of one float type.
 ///
 /// Arithmetic follows IEEE 754 in each lane. Only `mul_add_loosely` and `mul_sub_loosely` may fuse operations.
 pub trait Arithmetic<const N: usize>: Copy {
@@ -39,17 +39,17 @@ pub trait Arithmetic<const N: usize>: Copy {
     fn mul(self, other: Self) -> Self;
     /// Quotients.
     fn div(self, other: Self) -> Self;
-    /// The lesser number of each lane. If both numbers are equal or one is NaN, the result is the number of `other`.
+    /// The lesser number in each lane. For equal numbers or NaN, the result is the number in `other`.
     fn min(self, other: Self) -> Self;
-    /// The greater number of each lane. If both numbers are equal or one is NaN, the result is the number of `other`.
+    /// The greater number in each lane. For equal numbers or NaN, the result is the number in `other`.
     fn max(self, other: Self) -> Self;
     /// `self`, negated in the lanes where the sign bit of `other` is set.
     fn flip_sign(self, other: Self) -> Self;
-    /// The lanes where `self <= other`, as bits with lane 0 lowest.
+    /// Bit `i` of the result is set if `self <= other` in lane `i`.
     fn le(self, other: Self) -> u32;
-    /// The lanes where `self < other`, as bits with lane 0 lowest.
+    /// Bit `i` of the result is set if `self < other` in lane `i`.
     fn lt(self, other: Self) -> u32;
-    /// `self * factor + term`, rounded once or twice. No hit may depend on the number of roundings.
+    /// `self * factor + term`, rounded once or twice. Hits must not depend on the number of roundings.
     fn mul_add_loosely(self, factor: Self, term: Self) -> Self;
     /// `self * factor - term`, rounded like [`mul_add_loosely`](Self::mul_add_loosely).
     fn mul_sub_loosely(self, factor: Self, term: Self) -> Self;
@@ -60,7 +60,7 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
     /// `N` lanes of `f64`.
     type Double: Arithmetic<N, Scalar = f64>;
 
-    /// The lanes of an array.
+    /// Lanes with the numbers in `values`.
     fn load(values: &[f32; N]) -> Self;
     /// The same numbers as `f64`.
     fn widen(self) -> Self::Double;
@@ -68,7 +68,7 @@ pub trait Lanes<const N: usize>: Arithmetic<N, Scalar = f32> {
     fn narrow(wide: Self::Double) -> Self;
 }
 
-/// Eight lanes of `f32` with comparison masks, and eight lanes of `u32`.
+/// Eight lanes of `f32`, with comparison masks.
 pub trait EightLanes: Lanes<8> {
     /// A boolean per lane.
     type Mask: Copy;
@@ -78,10 +78,13 @@ pub trait EightLanes: Lanes<8> {
     /// Whether lane operations are vector instructions.
     const FAST: bool;
 
-    /// Writes the lanes where `self <= limit` to `keys`, and their `values` to `chosen`.
+    /// Selects the lanes where `self <= limit`.
     ///
-    /// `order` contains eight lane numbers of 3 bits, with the first number in the lowest bits. Lanes are written in
-    /// this order. Bit `i` of the result is set if lane number `i` of `order` is written.
+    /// The selected lanes of `self` are written to `keys`. The selected elements of `values` are written to `chosen`.
+    ///
+    /// `order` is a list of eight lane indices, 3 bits each. Bits 0 to 2 of `order` contain the index at position 0.
+    /// The selected lanes and elements are written in list order. Bit `i` of the result is set if the lane at list
+    /// position `i` is selected.
     ///
     /// # Safety
     /// `keys` and `chosen` must be valid for writes of eight elements, even if fewer lanes are selected.
@@ -94,7 +97,10 @@ pub trait EightLanes: Lanes<8> {
         chosen: *mut u32,
     ) -> u32;
 
-    /// Like `compress_ordered`, but in the order of the lanes and without keys.
+    /// Selects the lanes where `self <= limit`.
+    ///
+    /// The selected elements of `values` are written to `chosen` in ascending lane order. Bit `i` of the result is
+    /// set if lane `i` is selected.
     ///
     /// # Safety
     /// `chosen` must be valid for writes of eight numbers, even if fewer lanes are selected.
@@ -104,9 +110,9 @@ pub trait EightLanes: Lanes<8> {
     fn cmp_le(self, other: Self) -> Self::Mask;
     /// The lanes where `self < other`.
     fn cmp_lt(self, other: Self) -> Self::Mask;
-    /// The mask of the lanes whose bits are set, with lane 0 lowest.
+    /// The mask that contains lane `i` if bit `i` of `bits` is set.
     fn mask(bits: u32) -> Self::Mask;
-    /// The lanes of a mask as bits, with lane 0 lowest.
+    /// Bit `i` of the result is set if `mask` contains lane `i`.
     fn bits(mask: Self::Mask) -> u32;
     /// The lanes that are in both masks.
     fn both(one: Self::Mask, other: Self::Mask) -> Self::Mask;
@@ -115,7 +121,7 @@ pub trait EightLanes: Lanes<8> {
     /// `self` in the lanes of `mask`, `other` elsewhere.
     fn choose(self, other: Self, mask: Self::Mask) -> Self;
 
-    /// The lanes of an array.
+    /// Lanes with the numbers in `numbers`.
     fn numbers(numbers: &[u32; 8]) -> Self::Numbers;
     /// The same number in every lane.
     fn splat_number(number: u32) -> Self::Numbers;
@@ -158,7 +164,6 @@ mod tests {
         }
     }
 
-    /// Returns the sets, the keys and the two lists of values.
     fn taken<L: EightLanes>(a: &[f32; 8], b: &[f32; 8], order: u32) -> ([u32; 2], [Vec<u32>; 3]) {
         let (a, b, values) = (L::load(a), L::load(b), std::array::from_fn(|i| 100 + i as u32));
         let (mut keys, [mut ordered, mut plain]) = ([0.0_f32; 8], [[0_u32; 8]; 2]);

@@ -112,7 +112,7 @@ impl EightLanes for Portable<8> {
         for at in 0..8 {
             let lane = (order >> (3 * at) & 7) as usize;
             if self.0[lane] <= limit.0[lane] {
-                // SAFETY: by contract, eight keys and eight values may be written. `count` is below 8.
+                // SAFETY: by contract, `keys` and `chosen` are valid for writes of eight elements. `count` is below 8.
                 unsafe {
                     keys.add(count).write(self.0[lane]);
                     chosen.add(count).write(values[lane]);
@@ -129,7 +129,7 @@ impl EightLanes for Portable<8> {
         let (mut set, mut count) = (0, 0);
         for (lane, &value) in values.iter().enumerate() {
             if self.0[lane] <= limit.0[lane] {
-                // SAFETY: by contract, eight values may be written. `count` is below 8.
+                // SAFETY: by contract, `chosen` is valid for writes of eight elements. `count` is below 8.
                 unsafe { chosen.add(count).write(value) };
                 set |= 1 << lane;
                 count += 1;

@@ -24,13 +24,13 @@ impl<const N: usize, L: Lanes<N>> LaneVec3<N, L> {
         Self::new(L::splat(v.x), L::splat(v.y), L::splat(v.z))
     }
 
-    /// Loads vectors in structure-of-arrays layout.
+    /// Loads one vector per lane from a structure of arrays.
     #[inline(always)]
     pub fn load([x, y, z]: &[[f32; N]; 3]) -> Self {
         Self::new(L::load(x), L::load(y), L::load(z))
     }
 
-    /// Broadcasts vector `lane` of `M` vectors in structure-of-arrays layout.
+    /// Copies the vector at index `lane` to every lane.
     ///
     /// # Panics
     /// If `lane` is not below `M`.

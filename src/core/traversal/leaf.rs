@@ -1,4 +1,4 @@
-//! Stores the triangles of leaves in blocks, and searches the blocks for hits.
+//! Storage and search of the triangles in leaves.
 
 use std::cmp::Ordering;
 
@@ -9,7 +9,7 @@ use crate::triangle::{BLOCK, Depth, TriangleTest};
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest<D> {
-    /// A new hit must lie at or before this `t`.
+    /// An upper bound for the `t` of nearer hits.
     pub t: f32,
     pub hit: Option<(D, u32)>,
 }
@@ -81,7 +81,7 @@ impl<T: TriangleTest> LeafBlock<T> {
     }
 }
 
-/// Avoids repeated tests of a triangle that several leaves reference (Havran 2000).
+/// Avoids repeated tests of triangles that are in several leaves (Havran 2000).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mailbox([u32; 8]);
 
@@ -95,7 +95,7 @@ impl Mailbox {
     }
 }
 
-/// `count` is the number of triangles in `blocks`. A larger `count` makes only the counts in `observer` wrong.
+/// `count` is the number of triangles in `blocks`. A `count` above this number affects only `observer`.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Observer>(
     blocks: &'a [LeafBlock<T>],
@@ -137,7 +137,7 @@ pub(crate) fn settle<'a, T: TriangleTest>(
     while candidates != 0 {
         let lane = candidates.trailing_zeros() as usize % BLOCK;
         let id = block.ids[lane];
-        // Several leaves may reference one triangle, so this triangle may already be the nearest hit.
+        // A search of another leaf may already have found triangle `id`.
         if nearest.hit.as_ref().is_none_or(|(_, nearest)| *nearest != id) {
             let Some(decided) = T::decide_at_once(ray, &block.triangles, lane, values) else {
                 return settle_closely(block, ray, candidates, values, nearest);
@@ -159,7 +159,7 @@ pub(crate) fn settle<'a, T: TriangleTest>(
     }
 }
 
-/// Up to this number of candidates, separate calls of `decide` are faster than `look_closer`.
+/// `look_closer` saves time only for more than `FEW` candidates.
 const FEW: u32 = 2;
 
 #[inline(never)]

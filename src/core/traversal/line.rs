@@ -5,22 +5,22 @@ use glam::Vec3A;
 use crate::geometry::{Aabb, Ray};
 use crate::simd::{Lanes, each};
 
-/// The line of a ray, prepared for crossing axis-aligned planes.
+/// The line of a ray, prepared to compute crossings with axis-aligned planes.
 ///
-/// **Slack.** A crossing of the plane `axis = s` is computed as `(s - o) * (1 / d)`, with three roundings. The relative
-/// error is at most 3.01 * 2^-24. If the product underflows, the absolute error is at most 2^-148. [`before`] and
-/// [`after`] move a crossing by more than twice the error. Hence a moved crossing compares correctly with an unmoved
-/// crossing.
+/// **Slack.** Let o and d be the components of the ray's origin and direction along one axis. The crossing with the
+/// plane at s is computed as `(s - o) * (1 / d)`, with three roundings. The relative error is at most 3.01 * 2^-24. If
+/// the product underflows, the absolute error is at most 2^-148. [`before`] and [`after`] move a crossing by more than
+/// twice its error. Hence the slack covers the errors of two compared crossings.
 ///
-/// **Undefined crossings.** A crossing is NaN if the ray lies in the plane. A crossing is also NaN if `1 / d` overflows
-/// or is subnormal, or if `s - o` may overflow. Traversals treat NaN as a crossing at an unknown `t`.
+/// **Undefined crossings.** If the ray lies in a plane, the crossing with this plane is NaN. If `1 / d` overflows or is
+/// subnormal, all crossings on this axis are NaN. If any `s - o` may overflow, all crossings are NaN. Traversals treat
+/// NaN as a crossing at an unknown `t`.
 ///
-/// **Ends of the interval.** A triangle test may round `t` down by up to 2^-24 `t`. The exact `t` of a hit may then
-/// exceed the end of the interval. [`before`] puts an entry at least 3.9 * 2^-24 `t` before the exact entry. Hence the
-/// entry into a box with a hit is not beyond the end.
+/// **Ends of the interval.** An interval may end at the `t` of a hit. The triangle test may have rounded this `t` down.
+/// The relative error of this rounding is at most 2^-24. The slack of [`before`] also covers this error.
 ///
 /// **Overflow.** A crossing near the largest float may be computed as infinity, beyond every finite end. Traversals
-/// therefore make the entry finite with [`finite_entry`], or the end infinite with [`open_end`] or [`after`].
+/// therefore limit entries with [`finite_entry`], or raise ends with [`open_end`] or [`after`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -32,7 +32,7 @@ const TINY: f32 = f32::MIN_POSITIVE;
 const AFTER: f32 = 1.0 + 4.0 * f32::EPSILON;
 const BEFORE: f32 = 1.0 - 4.0 * f32::EPSILON;
 
-/// If the computed crossing `t` is not negative, the result is not after the exact crossing.
+/// If the computed crossing `t` is finite and not negative, the result is not after the exact crossing.
 #[inline(always)]
 pub(crate) fn before(t: f32) -> f32 {
     t * BEFORE - TINY
@@ -47,13 +47,13 @@ pub(crate) fn after(t: f32) -> f32 {
 /// The largest finite result of [`before`].
 const LATEST: f32 = f32::MAX * BEFORE - TINY;
 
-/// `t` must be a crossing moved by [`before`].
+/// Limits an entry to the largest finite result of [`before`].
 #[inline(always)]
 pub(crate) fn finite_entry(t: f32) -> f32 {
     if t < LATEST { t } else { LATEST }
 }
 
-/// Returns `t`, or infinity if a crossing before `t` may be computed as infinity.
+/// Replaces an end `t` near the largest float by infinity.
 #[inline(always)]
 pub(crate) fn open_end(t: f32) -> f32 {
     if t < LATEST { t } else { f32::INFINITY }
@@ -69,10 +69,10 @@ pub(crate) fn farthest(bounds: &Aabb) -> Vec3A {
     Vec3A::from(bounds.min.abs().max(bounds.max.abs()))
 }
 
-/// Inverses that are subnormal or overflow become NaN. The inverse of 0 is infinite.
+/// Subnormal and overflowed inverses become NaN. The inverse of 0 is infinite.
 ///
-/// `farthest` bounds the coordinates of all planes. If the difference of a plane and the origin may overflow, all
-/// inverses are NaN.
+/// `farthest` must be an upper bound of the magnitudes of all plane coordinates. If the difference of a plane and the
+/// origin may overflow, all inverses are NaN.
 #[inline(always)]
 pub(crate) fn inverses(ray: &Ray, farthest: Vec3A) -> [f32; 3] {
     let (origin, direction) = ray.vectors();
@@ -86,7 +86,7 @@ pub(crate) fn inverses(ray: &Ray, farthest: Vec3A) -> [f32; 3] {
 }
 
 impl Line {
-    /// All planes must meet `bounds`.
+    /// Crossings are valid only with planes that intersect `bounds`.
     #[inline(always)]
     pub fn new(ray: &Ray, bounds: &Aabb) -> Self {
         let backward = each(&ray.direction.to_array(), |x| x.is_sign_negative());
@@ -104,17 +104,18 @@ impl Line {
         self.backward[axis]
     }
 
-    /// Clips [`t0`, `t1`] to the closed box, with slack. `None` proves that the line misses the box in this interval.
+    /// Clips [`t0`, `t1`] to the closed box `cell`, with slack. `None` proves that the line misses the box in this
+    /// interval.
     ///
-    /// `t0` must not be negative. An entry that overflows is infinite, so `t1` must be a result of [`open_end`] or
-    /// [`after`]. A crossing that is NaN leaves the interval unchanged.
+    /// `t0` must not be negative. `t1` must be a result of [`open_end`] or [`after`]. A NaN crossing does not change
+    /// the interval.
     #[inline(always)]
     pub fn clip(&self, cell: &Aabb, mut t0: f32, mut t1: f32) -> Option<(f32, f32)> {
         for axis in 0..3 {
             let (low, high) = (self.crossing(axis, cell.min[axis]), self.crossing(axis, cell.max[axis]));
             let (near, far) = if self.backward[axis] { (high, low) } else { (low, high) };
-            // A negative entry lies before `t0`, so its slack does not matter. A negative exit needs no slack, because
-            // the exact exit is also negative.
+            // `before` keeps a negative entry below `t0`. If the computed exit is negative, the exact exit is also
+            // negative.
             let (near, far) = (before(near), if far < 0.0 { far } else { after(far) });
             t0 = if near > t0 { near } else { t0 };
             t1 = if far < t1 { far } else { t1 };

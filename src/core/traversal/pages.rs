@@ -1,6 +1,6 @@
-//! Memory for large arrays in huge pages, and prefetching.
+//! Huge pages for large arrays, and prefetching.
 
-/// Requests huge pages from Linux. With 4 KiB pages, a traversal misses the TLB at nearly every node.
+/// Requests huge pages from Linux.
 pub(crate) fn with_capacity<T>(len: usize) -> Vec<T> {
     let values = Vec::with_capacity(len);
     advise(values.as_ptr(), len * size_of::<T>());
@@ -13,11 +13,11 @@ pub(crate) fn moved<T: Copy>(values: Vec<T>) -> Vec<T> {
     moved
 }
 
-/// Prefetches the cache line at `at`. Any address is allowed.
+/// Prefetches a cache line. The address `at` may be invalid.
 #[inline(always)]
 pub(crate) fn fetch(at: *const u8) {
     #[cfg(target_arch = "x86_64")]
-    // SAFETY: a prefetch has no visible effect and faults at no address. SSE is part of x86-64.
+    // SAFETY: a prefetch never faults and changes no value. Every x86-64 processor has SSE.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         _mm_prefetch::<_MM_HINT_T0>(at.cast());
@@ -35,7 +35,8 @@ fn advise<T>(start: *const T, bytes: usize) {
     }
     const MADV_HUGEPAGE: c_int = 14;
     const PAGE: usize = 4096;
-    // SAFETY: the advice changes no values. The advised pages lie in the memory that `with_capacity` has allocated.
+    // SAFETY: the advice changes no values. The range from `first` to `end` lies in the memory that `with_capacity` has
+    // allocated.
     unsafe {
         let first = start.addr().next_multiple_of(PAGE);
         let end = (start.addr() + bytes) / PAGE * PAGE;

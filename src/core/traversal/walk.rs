@@ -1,11 +1,12 @@
-//! Runs traversals with the SIMD instructions of the current level.
+//! Runs traversals at the current SIMD level.
 
 use crate::accel::{Counts, Observer};
 use crate::geometry::{Hit, Ray};
 use crate::simd::{EightLanes, Kernel, Level, Portable, dispatch};
 
 pub(crate) trait Walk {
-    /// Returns the nearest hit or, with `ANY`, any hit. With `ANY`, the returned `t` is only an upper bound.
+    /// If `ANY` is false, returns the nearest hit. If `ANY` is true, returns any hit. With `ANY`, the `t` of the hit is
+    /// [`Depth::bound`](crate::triangle::Depth::bound).
     fn walk<const ANY: bool, L: EightLanes, O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit>;
 }
 
@@ -28,7 +29,7 @@ pub(crate) fn walk_without_observer<const ANY: bool, L: EightLanes, W: Walk>(str
     if L::FAST {
         structure.walk::<ANY, L, ()>(ray, &mut ())
     } else {
-        // Reusing the counting traversal avoids a second compiled copy.
+        // The traversal with `Counts` is reused to avoid compiling a second copy.
         walk_with_observer::<ANY, W, Counts>(structure, ray, &mut Counts::default())
     }
 }

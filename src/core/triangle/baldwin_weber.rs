@@ -3,12 +3,9 @@ use glam::{DVec3, Vec3};
 use super::TriangleTest;
 use crate::simd::{LaneVec3, Lanes, indexed};
 
-/// The Baldwin-Weber test in `f32`. It transforms the ray into the space of the unit triangle.
+/// The Baldwin-Weber test in `f32`.
 ///
-/// Closed meshes may leak at edges. Errors grow with the distance from the world's origin.
-///
-/// One column of each matrix is (0, 0, 1). The position of this column differs per triangle, so a block stores all
-/// twelve numbers.
+/// Rays may pass between triangles that share an edge. Rounding errors grow with the distance from the world's origin.
 ///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics
@@ -16,7 +13,7 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BaldwinWeber;
 
-/// Each matrix transforms a point to two barycentrics and a scaled height above the plane.
+/// One matrix per triangle. Each matrix maps a point to two barycentrics and a multiple of the height above the plane.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ToUnit<const N: usize> {
@@ -26,7 +23,7 @@ pub struct ToUnit<const N: usize> {
 
 const _: () = assert!(size_of::<ToUnit<1>>() == 48);
 
-/// All numbers are zero for a triangle without area. Then `t` is NaN, and no ray hits the triangle.
+/// If the computed area is zero, all results are zero. Then no ray hits the triangle, because `t` is NaN.
 fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (edge1, edge2) = (b - a, c - a);
@@ -36,7 +33,6 @@ fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
     if det == 0.0 {
         return [(DVec3::ZERO, 0.0); 3];
     }
-    // Any third basis vector outside the plane is correct.
     let free = DVec3::AXES[longest];
     [edge2.cross(free), free.cross(edge1), normal].map(|row| (row / det, -row.dot(a) / det))
 }

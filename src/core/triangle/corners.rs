@@ -52,6 +52,7 @@ impl<const N: usize> Corners<N> {
     }
 }
 
+/// One triangle of [`Corners`].
 #[derive(Clone, Copy, Debug)]
 pub struct LaneCorners<'a> {
     coordinates: &'a [f32],
@@ -63,7 +64,8 @@ impl LaneCorners<'_> {
     pub(super) fn coordinates(&self) -> [f32; 9] {
         let lanes = self.coordinates.len() / 9;
         debug_assert!(self.lane < lanes);
-        // SAFETY: `Corners::place` is the only constructor. It stores nine rows of `lanes` floats and checks the lane.
+        // SAFETY: only `Corners::place` creates a `LaneCorners`. `place` has checked that `lane < lanes`. The
+        // coordinates are nine rows of `lanes` floats.
         indexed(|row| unsafe { *self.coordinates.get_unchecked(row * lanes + self.lane) })
     }
 

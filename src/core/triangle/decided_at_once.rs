@@ -42,7 +42,7 @@ macro_rules! decided_on_corners {
     };
 }
 
-/// `$solve` returns the lanes that the line hits, as bits, and the `t` of all lanes.
+/// `$solve` returns a bit mask of the triangles that the line hits, and `t` for all triangles.
 macro_rules! decided_in_f64 {
     ($solve:ident) => {
         decided_on_corners!();
@@ -57,7 +57,7 @@ macro_rules! decided_in_f64 {
             let wide = |v| $crate::simd::LaneVec3::<N, L>::splat(v).widen();
             let corners = $crate::simd::each(&block.load::<L>(), |corner| corner.widen());
             let (inside, t) = $solve(wide(origin), wide(direction), corners);
-            // Compare before the rounding, because rounding may turn a small negative `t` into zero.
+            // `from` is compared with the unrounded `t`. Rounding may turn a small negative `t` into zero.
             let inside = inside & L::splat(from).widen().le(t);
             let t = L::narrow(t);
             (inside & t.le(L::splat(to)), t)

@@ -4,18 +4,19 @@ use std::marker::PhantomData;
 use crate::geometry::Ray;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// The length of [`Depth::inputs`]. The first nine values are the coordinates of the corners.
+/// The length of [`Depth::inputs`]. The first nine inputs are the coordinates of the corners.
 pub const INPUTS: usize = 16;
 /// The index of the origin's first coordinate in [`Depth::inputs`].
 pub const ORIGIN: usize = 9;
 /// The index of the direction's first coordinate in [`Depth::inputs`].
 pub const DIRECTION: usize = 12;
-/// The index of the distance between the bounds of `t` in [`Depth::inputs`].
+/// The index in [`Depth::inputs`] of the difference between an upper and a lower bound of `t`.
 pub const BETWEEN_BOUNDS: usize = 15;
 
 /// The position of a hit along its ray, in the precision of the triangle test.
 pub trait Depth: Copy {
-    /// The order along the ray. If `None`, [`order_closely`](super::TriangleTest::order_closely) must decide.
+    /// The order of two hits along the same ray. If `None`, [`order_closely`](super::TriangleTest::order_closely) must
+    /// decide.
     fn order(&self, other: &Self) -> Option<Ordering>;
 
     /// The depth of a hit at `t`, or `None` if depths of this type contain more than `t`.
@@ -34,7 +35,7 @@ pub trait Depth: Copy {
         unreachable!("a depth with `LATE` implements `inputs`")
     }
 
-    /// Computes [`t`](Self::t) for eight hits, with one hit per lane of `inputs`. Bit `i` of `which` is set if lane `i`
+    /// Computes [`t`](Self::t) for up to eight hits, one per lane of `inputs`. Bit `i` of `which` is set if lane `i`
     /// has a hit.
     #[inline(always)]
     fn ts<L: EightLanes>(_inputs: &[[f32; 8]; INPUTS], _which: u32) -> [f32; 8] {
@@ -68,7 +69,7 @@ impl<D: Depth> Kernel for LastBits<'_, D> {
     }
 }
 
-/// This depth is never NaN, so `order` never returns `None`.
+/// No hit has a NaN `t`, so `order` never returns `None`.
 impl Depth for f32 {
     #[inline(always)]
     fn of(t: f32) -> Option<f32> {

@@ -1,37 +1,35 @@
 use super::TriangleTest;
 use crate::simd::{Arithmetic, LaneVec3};
 
-/// The edge test of [`Plucker`](super::Plucker) in `f64`. The test widens triangles by its rounding error, and rounds
-/// `t` to `f32`.
+/// The edge test of [`Plucker`](super::Plucker) in `f64`. The result `t` is rounded to `f32`.
 ///
-/// The ray is o + t d. The edges e1 and e2 begin at the first corner a. |v| is the sum of the magnitudes of the
-/// components of a vector v. Let D = |d| and det = d . (e1 x e2). Proven bounds:
+/// The test enlarges each triangle by a bound of the rounding error.
 ///
-/// - If the ray hits the triangle and |det| >= 2^-48 D |e1| |e2|, the test reports a hit. Near the ends of the
-///   interval, the computed `t` decides.
-/// - Let p be the start of the edge e opposite a corner. The barycentric of this corner in a reported hit is at least
+/// The ray is o + t d. The edges e1 and e2 begin at the first corner a. For a vector v, |v| is the sum of the
+/// magnitudes of its components. Let D = |d| and det = d . (e1 x e2). Proven statements:
+///
+/// - Let |det| >= 2^-48 D |e1| |e2|. If the line of the ray hits the triangle and the computed `t` lies in the
+///   ray interval, the test reports a hit.
+/// - Let the edge e begin at the corner p. In a reported hit, the barycentric of the corner opposite e is at least
 ///   -2^-47 D |p - o| |e| / |det|.
-/// - The error of `t` is at most 2^-49 |e1| |e2| (|a - o| + |t| D) / |det|, plus half an ulp.
-///
-/// Only needles and slivers have large errors.
+/// - The error of `t` is at most 2^-49 |e1| |e2| (|a - o| + |t| D) / |det|, plus half an `f32` ulp.
 ///
 /// # References
 /// See [`Plucker`](super::Plucker).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EdgeF64;
 
-/// Returns the lanes whose triangle the line hits, as bits, and the `t` of all lanes.
+/// Returns a bit mask of the triangles that the line hits, and `t` for all triangles.
 ///
-/// The volume of the direction d and two corners p and q is computed as d . (p x (q - p)). In this form, the error does
-/// not grow with the square of the distance.
+/// The corners a, p and q are relative to the ray's origin. The edge e = q - p has the volume d . (p x e). The
+/// equivalent d . (p x q) has larger rounding errors for distant triangles.
 ///
-/// **Bounds.** The corners a, p and q are relative to the ray's origin. Let n = 2^-53. The error of d . (p x e) is at
-/// most 7.1 n 2 |d| |p| |e|. The code has 9 instead of 7.1 to cover the rounding of the bound. If a computed value is
-/// at least -18 n |d| |p| |e|, the exact value is at least -33 n |d| |p| |e|.
+/// **Bounds.** Let n = 2^-53. The error of d . (p x e) is at most 7.1 n |d| |p| |e|. For det > 0, the code accepts
+/// computed volumes of at least -18 n |d| |p| |e|. The exact volume is then at least -26 n |d| |p| |e|.
 ///
-/// The sign of det = d . (e1 x e2) is certain if the computed |det| exceeds 18 n |d| |e1| |e2|. An exact |det| above 26
-/// n |d| |e1| |e2| ensures a certain sign. The error of a . (e1 x e2) is 8.1 n |a| |e1| |e2|. The error of t is less
-/// than 14 n |e1| |e2| (|a| + |t| |d|) / |det|.
+/// The sign of det = d . (e1 x e2) is certain if the computed |det| exceeds 18 n |d| |e1| |e2|. If the exact |det|
+/// exceeds 26 n |d| |e1| |e2|, the computed |det| exceeds 18 n |d| |e1| |e2|. The error of a . (e1 x e2) is at most
+/// 8.1 n |a| |e1| |e2|. The error of t is less than 14 n |e1| |e2| (|a| + |t| |d|) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     origin: LaneVec3<N, L>,

@@ -1,13 +1,13 @@
 use crate::simd::{EightLanes, LaneVec3};
 
-/// Eight valid rays, one per lane.
+/// Eight [valid](crate::geometry::Ray::is_valid) rays, one per lane.
 #[derive(Clone, Copy)]
 pub struct EightRays<L> {
     /// The origins of the rays.
     pub origin: LaneVec3<8, L>,
     /// The directions of the rays.
     pub direction: LaneVec3<8, L>,
-    /// The starts of the intervals. They are not negative.
+    /// The starts of the intervals. No start is negative.
     pub t_min: L,
     /// The ends of the intervals.
     pub t_max: L,
@@ -19,12 +19,12 @@ pub struct EightRays<L> {
 
 /// The hits of eight rays with one triangle.
 pub struct EightHits<L: EightLanes> {
-    /// The rays that hit the triangle within their intervals.
+    /// Rays that certainly hit the triangle within their intervals.
     pub met: L::Mask,
-    /// The rays without a hit up to the `to` of [`meet_eight`](super::TriangleTest::meet_eight).
+    /// Rays that have no hit up to the argument `to` of [`meet_eight`](super::TriangleTest::meet_eight).
     ///
-    /// Rays in neither mask must be tested individually. A [one-stage test](super::TriangleTest::ONE_STAGE) leaves
-    /// `missed` empty. Then all rays outside `met` miss.
+    /// If [`ONE_STAGE`](super::TriangleTest::ONE_STAGE) is true, all rays outside `met` miss. Otherwise, rays in
+    /// neither `met` nor `missed` must be tested individually.
     pub missed: L::Mask,
     /// Lower bounds of `t` for the rays in `met`.
     pub low: L,

@@ -1,4 +1,4 @@
-//! The `f32` stage of the exact test. It rejects no triangle that the ray hits.
+//! The `f32` stage of the exact test.
 
 use glam::{Vec3, Vec3Swizzles as _};
 
@@ -13,13 +13,15 @@ pub(super) struct FilterRay {
     scaling: Scaling,
 }
 
-/// Scales the largest direction component to [1, 2), or to less if the component is denormal.
+/// Scales the largest magnitude of a direction component to [1, 2).
+///
+/// If this magnitude is denormal, the scaled magnitude is less than 1.
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
-    /// A power of two, with the inverse `unscaled`.
+    /// A power of two. `unscaled` is the inverse.
     scale: f32,
     unscaled: f32,
-    /// [`TINY`], or infinity if an overflow is possible. Infinity rejects no triangle.
+    /// [`TINY`], or infinity if an overflow is possible. An infinite `tiny` prevents rejections of triangles.
     tiny: f32,
 }
 
@@ -27,19 +29,19 @@ struct Scaling {
 #[repr(C)]
 pub struct FilterBlock<const N: usize> {
     pub(super) corners: Corners<N>,
-    /// The largest magnitude of an edge component. Infinite if an overflow is possible, negative in unused lanes.
+    /// The largest magnitude of an edge component. Infinite if an overflow is possible. Negative in unused lanes.
     extents: [f32; N],
-    /// [`HEIGHT`] times N in the notation of [`filter_block`], rounded up.
+    /// The product of [`HEIGHT`] and P, rounded up. [`filter_block`] defines P.
     areas: [f32; N],
 }
 
-/// The results of the first stage for `N` triangles, in the notation of [`filter_block`].
+/// Intermediate results of the `f32` stage, in the notation of [`filter_block`].
 #[derive(Clone, Copy, Debug)]
 pub struct Candidates<L> {
     /// The computed h.
     height: L,
     abs_det: L,
-    /// The computed m. NaN if a value in the minimum is NaN.
+    /// The computed m. NaN if u, v or det is NaN.
     least: L,
     slack: L,
     height_error: L,
@@ -50,34 +52,37 @@ pub struct Candidates<L> {
 
 #[derive(Clone, Copy, Debug)]
 pub struct CandidateBounds<const N: usize> {
-    /// The lanes whose triangle the line certainly meets, as bits. The exact `t` is then in [`low`, `high`].
+    /// Bit `i` is set if the line certainly meets the triangle in lane `i`.
     pub sure: u32,
+    /// Lower bounds of the exact `t`, in the lanes of `sure`.
     pub low: [f32; N],
+    /// Upper bounds of the exact `t`, in the lanes of `sure`.
     pub high: [f32; N],
 }
 
 /// The unit roundoff of `f32`, 2^-24.
 const UNIT: f32 = f32::EPSILON / 2.0;
-/// The slack 2 k of [`filter_block`] is `SLACK` E (|s| + 2 E).
+/// The bound 2 k of [`filter_block`] is `SLACK` E (|s| + 2 E).
 const SLACK: f32 = 2.0 * 40.0 * 2.0 * UNIT;
-/// In the notation of [`filter_block`], dh is `HEIGHT` N |s|, and dd is `DETERMINANT` `HEIGHT` N.
+/// The bound dh of [`filter_block`] is `HEIGHT` P |s|.
 const HEIGHT: f32 = 10.0 * UNIT;
+/// The bound dd of [`filter_block`] is `DETERMINANT` `HEIGHT` P.
 const DETERMINANT: f32 = 6.0;
 /// In the notation of [`filter_block`], the underflows of u, v and det add up to less than (4 |s| + 12 E + 42) 2^-150.
-/// The slack covers these underflows by TINY (1 + |s| + 2 E). A denormal constant would be slow.
+/// The slack contains `TINY` (1 + |s| + 2 E) to cover these underflows. A denormal constant would be slow.
 const TINY: f32 = f32::MIN_POSITIVE;
 const _: () = assert!(TINY.is_normal());
-/// Coordinates up to `LARGE` cause no overflow.
+/// If no coordinate exceeds `LARGE` in magnitude, the computation of u, v, det and h cannot overflow.
 ///
-/// In the notation of [`filter_block`], E is then at most 2^41, |s| is below 2^43, and intermediate values are at most
-/// 2 E E |s|.
+/// For these coordinates, E <= 2^41 and |s| < 2^43 in the notation of [`filter_block`]. Hence the magnitudes of u, v,
+/// det and h are below 2^126.
 const LARGE: f32 = (1_u64 << 40) as f32;
 
 impl Scaling {
-    /// `longest` and `farthest` bound the magnitudes of the components of directions and of origins.
+    /// `longest` bounds the magnitudes of direction components. `farthest` bounds the magnitudes of origin components.
     #[inline(always)]
     fn new(longest: f32, farthest: f32) -> Self {
-        // The scaling is exact, unless the result is denormal.
+        // A product with `scale` is exact, unless the product is denormal.
         let exponent = longest.to_bits() >> 23;
         let scale = match exponent {
             254 => f32::MIN_POSITIVE / 2.0,
@@ -129,8 +134,8 @@ impl<L> Candidates<L> {
 
     /// Returns two pairs of numbers and two bounds of `t` per lane.
     ///
-    /// If the first number is below the second in both pairs, the line certainly meets the triangle. The exact `t` is
-    /// then between the bounds.
+    /// If the first number is less than the second number in both pairs, the line certainly meets the triangle. The
+    /// exact `t` is then between the two bounds.
     #[inline(always)]
     pub(super) fn look<const N: usize>(&self) -> ([[L; 2]; 2], [L; 2])
     where
@@ -149,41 +154,46 @@ impl<L> Candidates<L> {
     }
 }
 
-/// Returns the lanes that the ray may hit at a `t` up to `to`, as bits, and the intermediate results.
+/// The bits of the first result mark the lanes that the ray may hit at a `t` up to `to`.
 ///
-/// **Notation.** Let o and d be the origin and the scaled direction, a the first corner, and s = o - a. Let e and f be
-/// the edges from a. Let det = e . (d x f), u = s . (d x f) and v = d . (s x e), all exact for the `f32` input. Let E
-/// bound the components of e and f, and D = 2 the components of d. Let |s| be the sum of the magnitudes of the
-/// components of s. Let w = 2^-24 be the relative rounding error of one operation.
+/// **Notation.** Let o be the origin and d the scaled direction. Let a, b and c be the corners. Let e = b - a,
+/// f = c - a and s = o - a. Let det = e . (d x f), u = s . (d x f) and v = d . (s x e).
 ///
-/// **No hit is lost.** The line meets the closed triangle if u, v and det - u - v, each times the sign of det, are not
-/// negative. The errors of u and v are at most 7.1 w 2 D E |s|. The error of det is at most 7.1 w 6 D E E. These errors
-/// and the rounding of det - (u + v) add up to at most k = 40 w D E (|s| + 2 E). More than 6 w D E |s| remains for the
-/// rounding of k.
+/// Let E bound the magnitudes of the components of e and f. Let D = 2 bound the magnitudes of the components of d. Let
+/// |s| be the sum of the magnitudes of the components of s. Let w = 2^-24 bound the relative rounding error of one
+/// operation.
 ///
-/// Multiply u and v by the computed sign of det. Let m be the minimum of u, v and |det| - u - v. If the computed sign
-/// is right, the computed u and v of a hit are at least -k, and u + v is at most |det| + k. If the computed sign is
-/// wrong, the exact |det| is at most k. The exact |u|, |v| and |u + v| of a hit are then at most k, and the computed
-/// values at most 2 k. Hence the computed m of a hit is at least -2 k. If the computed m exceeds 2 k, the line hits the
-/// triangle.
+/// **No hit is lost.** Let det be nonzero. Multiply u, v and det - u - v by the sign of det. The line meets the closed
+/// triangle if and only if no product is negative. The errors of u and v are at most 14.2 w D E |s|. The error of det
+/// is at most 42.6 w D E E. These errors and the rounding of det - (u + v) add up to at most k = 40 w D E (|s| + 2 E).
+/// The factor 40 also covers the rounding of k.
 ///
-/// Underflow adds less than [`TINY`] (1 + |s| + 2 E) to 2 k. If an intermediate value may overflow, the slack is
-/// infinite. Comparisons with infinity or NaN then neither reject a triangle nor prove a hit.
+/// From here, u and v are multiplied by the computed sign of det. Let m be the minimum of u, v and |det| - u - v.
 ///
-/// **Errors of h and det.** A hit is at t = h / |det|, where h is f . (s x e) times the sign of det. Let N bound |e_i
-/// f_k| + |e_k f_i| for each pair of axes i and k. The error of h is less than 8.1 w N |s|. The error of det is less
-/// than 43 w N. Underflow adds less than [`TINY`] (1 + E) to each error. The bounds dh = 10 w N |s| and dd = 60 w N
-/// also cover the rounding of dh and dd.
+/// - If the computed sign is right, the computed u and v of a hit are at least -k. The computed |det| - u - v of a hit
+///   is also at least -k.
+/// - If the computed sign is wrong, the exact |det| is at most k. The exact |u|, |v| and |u + v| of a hit are then at
+///   most k. Hence the computed |u|, |v| and |u + v| are at most 2 k.
 ///
-/// **Hits outside the interval.** If |det| exceeds dd, the sign of det is certain. A computed h below -dh then means
-/// that t is negative. Let T be at least `to`, in lengths of the scaled direction. A hit at a t up to T has
-/// h - T |det| <= dh + T dd. The bound dd also covers the rounding of this difference. The code uses the slack 2 k
-/// instead of dd, because 2 k is at least 160 w N.
+/// Hence the computed m of a hit is at least -2 k. If the computed m exceeds 2 k, the line meets the triangle.
 ///
-/// **Bounds of `t`.** Let det' and h' be the computed values. If |det'| exceeds 16 dd, the error of h'/det' is at most
-/// 16/15 (dh + |h'/det'| dd) / |det'|. The code uses 9/8 instead of 16/15 to cover the rounding. The quotient and the
-/// ends of the interval round by less than 8 w t. [`TINY`] covers the underflow when t is scaled back. No relevant
-/// value underflows earlier, because the error exceeds 2^-104.
+/// The slack is 2 k + [`TINY`] (1 + |s| + 2 E). The [`TINY`] term covers underflow. If an overflow is possible, the
+/// slack is infinite or NaN. Comparisons with infinity or NaN neither reject a triangle nor prove a hit.
+///
+/// **Errors of h and det.** Let h be the product of f . (s x e) and the sign of det. A hit is at t = h / |det|. Let P
+/// bound |e_i f_k| + |e_k f_i| for each pair of axes i and k. The error of h is less than 8.1 w P |s|. The error of det
+/// is less than 43 w P. The larger bounds dh = 10 w P |s| and dd = 60 w P also cover the rounding of dh and dd.
+/// Underflow adds less than [`TINY`] (1 + E) to each error.
+///
+/// **Hits outside the interval.** If the computed |det| exceeds dd, the sign of det is certain. A computed h below -dh
+/// then implies a negative t. Let T be an upper bound of `to`, converted to lengths of the scaled direction. The
+/// computed values of a hit at a t up to T satisfy h - T |det| <= dh + T dd. The bound dd also covers the rounding of
+/// h - T |det|. The code uses the slack instead of dd. The slack is larger than dd, because 2 k is at least 160 w P.
+///
+/// **Bounds of `t`.** Let det' and h' be the computed values. If |det'| exceeds 16 dd, the error of t' = h' / |det'| is
+/// at most 16/15 (dh + |t'| dd) / |det'|. The code uses 9/8 instead of 16/15 to cover the rounding of the error. The
+/// code adds 8 w |t'| to cover the rounding of t' and of the bounds. [`TINY`] covers the underflow when the bounds are
+/// multiplied by `scale`.
 #[inline(always)]
 pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     ray: &FilterRay,
@@ -198,9 +208,9 @@ pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     (!signs.lt(L::zero()) & ((1_u64 << N) - 1) as u32, candidates)
 }
 
-/// Returns the rays that miss the triangle, and the intermediate results.
+/// The first result contains only rays that do not hit the triangle at a `t` up to `to`.
 ///
-/// One factor scales all directions. It depends on the longest direction, so no scaled component exceeds 2.
+/// One factor scales all directions. No scaled component has a magnitude above 2.
 #[inline(always)]
 pub(super) fn filter_eight<const N: usize, L: EightLanes>(
     rays: &EightRays<L>,
@@ -221,7 +231,7 @@ pub(super) fn filter_eight<const N: usize, L: EightLanes>(
 
 /// If the first result of a lane is negative, the line does not meet the triangle at a `t` in [0, `last`].
 ///
-/// `last` is in lengths of the scaled direction.
+/// `t` and `last` are in lengths of the scaled direction.
 #[inline(always)]
 fn filter_lanes<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -234,7 +244,7 @@ fn filter_lanes<const N: usize, L: Lanes<N>>(
     let to_origin = origin - a;
     let (edge1, edge2) = (b - a, c - a);
 
-    // The error bounds hold with and without fused operations.
+    // The error bounds are valid with and without fused operations.
     let p = direction.cross_loosely(edge2);
     let q = to_origin.cross_loosely(edge1);
     let det = edge1.dot_loosely(p);
@@ -245,7 +255,8 @@ fn filter_lanes<const N: usize, L: Lanes<N>>(
     let distance = to_origin.abs_sum();
     let tiny = L::splat(scaling.tiny);
     let slack = distance.add(extent.add(extent)).mul_add_loosely(extent.mul_add_loosely(L::splat(SLACK), tiny), tiny);
-    // If u or v is NaN, the third value is NaN. `min` returns the second operand if an operand is NaN.
+    // If `u` or `v` is NaN, the argument of the second `min` is NaN. `min` returns the argument if either operand is
+    // NaN.
     let least = u.min(v).min(abs_det.sub(u.add(v)));
     let outside = least.add(slack);
 
@@ -255,7 +266,7 @@ fn filter_lanes<const N: usize, L: Lanes<N>>(
     let behind = slack.sub(abs_det).max(height.add(height_error));
     let beyond = slack.mul_add_loosely(last, height_error).add(last.mul_sub_loosely(abs_det, height));
 
-    // A negative value rejects the lane, but NaN does not. The extent is negative in unused lanes.
+    // A negative value in `signs` rejects the lane. NaN does not reject the lane. `extent` is negative in unused lanes.
     let signs = beyond.min(behind).min(outside).min(extent);
     let scale = scaling.scale;
     (signs, Candidates { height, height_error, abs_det, least, slack, area, underflow, scale })

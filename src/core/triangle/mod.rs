@@ -1,7 +1,7 @@
 //! Triangle tests for all structures.
 //!
-//! To add a test, implement [`TriangleTest`] in a file of this folder. Add the test to the lists of `offered.rs` and
-//! `validate/reference.rs`, to `Registry::builtin`, and to `triangle/tests/every.rs`.
+//! To add a test, implement [`TriangleTest`] in a file of this folder. Then add the test to `offered.rs`,
+//! `validate/reference.rs`, `Registry::builtin` and `triangle/tests/every.rs`.
 
 #[macro_use]
 pub(crate) mod decided_at_once;
@@ -71,7 +71,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// The position of a hit along the ray.
     type Depth<'a>: Depth;
 
-    /// Prepares a valid ray.
+    /// Prepares a [valid](Ray::is_valid) ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
     /// Packs the corners of at most `N` triangles into a block. Rays never hit unused lanes.
@@ -80,16 +80,18 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// If there are more than `N` triangles.
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Self::Block<N>;
 
-    /// The largest `t` of a hit on a valid ray with the end `t_max`. The default is for tests that round `t`.
+    /// An upper bound of the `t` of hits, for a valid ray whose interval ends at `t_max`.
+    ///
+    /// The default is the largest float below `t_max`.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
         // This equals `next_down`, because the `t_max` of a valid ray is positive.
         f32::from_bits(t_max.to_bits().wrapping_sub(1))
     }
 
-    /// The first stage. Returns the lanes that the ray may hit at a `t` in [`from`, `to`], as bits.
+    /// The first stage. The bits of the first result mark the lanes that the ray may hit at a `t` in [`from`, `to`].
     ///
-    /// The second result is the input of [`values`](Self::values). It has no meaning if no lane remains.
+    /// The second result is the input of [`values`](Self::values). The second result is meaningless if the first is 0.
     fn candidates<const N: usize, L: Lanes<N>>(
         ray: &Self::Ray,
         block: &Self::Block<N>,
@@ -110,7 +112,7 @@ pub trait TriangleTest: Send + Sync + 'static {
         values: &Self::Values<N>,
     ) -> Option<Self::Depth<'a>>;
 
-    /// Like [`decide`](Self::decide), but small enough to inline. `None` means that the candidate needs `decide`.
+    /// A version of [`decide`](Self::decide) to inline. `None` means that the caller must call `decide`.
     ///
     /// The values must come from [`values`](Self::values), not from [`look_closer`](Self::look_closer).
     #[inline(always)]
@@ -125,7 +127,7 @@ pub trait TriangleTest: Send + Sync + 'static {
 
     /// Refines many candidates at once. Returns the remaining candidates and the values for [`decide`](Self::decide).
     ///
-    /// `None` means that refining does not pay. Candidates beyond `nearest` may be removed.
+    /// Returns `None` if refining would not save time. May remove candidates beyond `nearest`.
     #[inline(always)]
     fn look_closer(
         _ray: &Self::Ray,
@@ -143,19 +145,19 @@ pub trait TriangleTest: Send + Sync + 'static {
         one.order(other).unwrap_or_else(|| Self::order_closely(ray, one, other))
     }
 
-    /// The order of two hits if [`Depth::order`] is `None`. Tests with such hits must implement this function.
+    /// The order of two hits for which [`Depth::order`] returns `None`.
+    ///
+    /// A test must implement this function if [`Depth::order`] can return `None`.
     fn order_closely(_ray: &Self::Ray, _one: &Self::Depth<'_>, _other: &Self::Depth<'_>) -> Ordering {
         unreachable!("a test whose depths may be unordered implements `order_closely`")
     }
 
     /// Whether the first stage decides all hits.
     ///
-    /// If true, `decide` accepts every candidate, and [`Depth::of`] returns a depth.
+    /// If true, [`decide`](Self::decide) and [`Depth::of`] must never return `None`.
     const ONE_STAGE: bool = false;
 
     /// Whether structures can trace several rays at once with this test.
-    ///
-    /// Code for several rays takes most of the compile time.
     const BATCHED: bool = false;
 
     /// Whether the test implements [`meet_eight`](Self::meet_eight).
@@ -175,14 +177,15 @@ pub trait TriangleTest: Send + Sync + 'static {
         unreachable!("a test with `EIGHT` implements `meet_eight`")
     }
 
-    /// The depth of a hit of [`meet_eight`](Self::meet_eight), from its bounds of `t`. Required if [`Depth::of`] is
-    /// `None`.
+    /// The depth of a hit of [`meet_eight`](Self::meet_eight) with a `t` in [`low`, `high`].
+    ///
+    /// Required if [`EIGHT`](Self::EIGHT) is true and [`Depth::of`] returns `None`.
     #[inline(always)]
     fn depth_between<const N: usize>(_block: &Self::Block<N>, _lane: usize, _low: f32, _high: f32) -> Self::Depth<'_> {
         unreachable!("a test whose `Depth::of` is `None` implements `depth_between`")
     }
 
-    /// Tests a single triangle for a hit at a `t` in [`from`, `to`].
+    /// Runs both stages for a single triangle.
     #[inline(always)]
     fn hit<'a>(ray: &Self::Ray, triangle: &'a Self::Block<1>, from: f32, to: f32) -> Option<Self::Depth<'a>> {
         let (candidate, first) = Self::candidates::<1, Portable<1>>(ray, triangle, from, to);
@@ -190,7 +193,7 @@ pub trait TriangleTest: Send + Sync + 'static {
     }
 }
 
-/// The `t` at which `ray` hits the triangle within the ray's interval. Returns `None` for an invalid ray.
+/// The `t` at which `ray` hits the triangle within the ray's interval. Returns `None` for a miss or an invalid ray.
 pub fn scalar_hit<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let (t_min, t_max) = ray.interval();
     let triangle = T::block(&[corners]);

@@ -5,17 +5,16 @@ use crate::simd::{EightLanes, LaneVec3, Lanes};
 
 /// The two-sided Möller-Trumbore test in `f32`, with precomputed edges.
 ///
-/// Edges and vertices belong to the triangle. The test has no epsilon. A triangle with a NaN is never hit.
+/// Edges and vertices belong to the triangle. The test has no epsilon. No ray hits a triangle with a NaN coordinate.
 ///
-/// Closed meshes may leak at edges, because the two triangles at an edge round their barycentrics independently. The
-/// `t` of a grazing ray may be off by thousands of ulps.
+/// Rays may leak through the edges of closed meshes. The `t` of a grazing ray may have an error of thousands of ulps.
 ///
 /// # References
 /// Möller, Trumbore: Fast, minimum storage ray/triangle intersection. Journal of Graphics Tools 2(1), 1997.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MollerTrumbore;
 
-/// One corner and the two edges that leave it, in structure-of-arrays layout.
+/// The first corners of `N` triangles and the edges from these corners, in structure-of-arrays layout.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Edges<const N: usize> {
@@ -27,7 +26,7 @@ pub struct Edges<const N: usize> {
 const _: () = assert!(size_of::<Edges<1>>() == 36);
 
 struct Solution<L> {
-    /// `u` and `v` are barycentrics times `abs_det`.
+    /// `u` and `v` are barycentric coordinates, multiplied by `abs_det`.
     u: L,
     v: L,
     abs_det: L,
@@ -63,7 +62,7 @@ impl TriangleTest for MollerTrumbore {
 
     fn block<const N: usize>(triangles: &[[Vec3; 3]]) -> Edges<N> {
         assert!(triangles.len() <= N, "a block of {N} lanes cannot hold {} triangles", triangles.len());
-        // Unused lanes hit nothing, because edges of length zero give a determinant of zero.
+        // No ray hits an unused lane, because the determinant of edges of length zero is zero.
         let mut block = Edges { corner: [[0.0; N]; 3], edge1: [[0.0; N]; 3], edge2: [[0.0; N]; 3] };
         for (lane, &[a, b, c]) in triangles.iter().enumerate() {
             for axis in 0..3 {
@@ -87,7 +86,7 @@ impl TriangleTest for MollerTrumbore {
         let Solution { u, v, abs_det, t } = solve::<N, L>(LaneVec3::splat(direction), to_origin, edges);
         let zero = L::zero();
         let inside = zero.le(u) & zero.le(v) & u.add(v).le(abs_det) & zero.lt(abs_det);
-        // If an overflow makes `t` NaN, the lane hits nothing.
+        // If an overflow makes `t` NaN, the comparisons are false.
         (inside & L::splat(from).le(t) & t.le(L::splat(to)), t)
     }
 
@@ -107,7 +106,7 @@ impl TriangleTest for MollerTrumbore {
         let zero = L::zero();
         let barycentrics = L::both(zero.cmp_le(u), zero.cmp_le(v));
         let inside = L::both(u.add(v).cmp_le(abs_det), zero.cmp_lt(abs_det));
-        // If an overflow makes `t` NaN, the lane hits nothing.
+        // If an overflow makes `t` NaN, the comparisons are false.
         let within = L::both(rays.t_min.cmp_le(t), t.cmp_le(to));
         let met = L::both(L::both(barycentrics, inside), within);
         Some(EightHits { met, missed: L::mask(0), low: t, high: t })

@@ -1,36 +1,36 @@
 use super::TriangleTest;
 use crate::simd::{Arithmetic, LaneVec3};
 
-/// [`MollerTrumbore`](super::MollerTrumbore) in `f64`. The test widens triangles by its rounding error, and rounds `t`
-/// to `f32`.
+/// The Möller-Trumbore test in `f64`. The test enlarges each triangle by a bound of the rounding errors. The `t` of a
+/// hit is rounded to `f32`.
 ///
-/// The size of a vector is the sum of the magnitudes of its components. D is the size of the direction d. The edges e1
+/// The size of a vector is the sum of the magnitudes of the components. D is the size of the direction d. The edges e1
 /// and e2 begin at the first corner. E is the sum of the sizes of e1 and e2. |s| is the size of the vector s from the
-/// first corner to the origin. Let det = e1 . (d x e2). Proven bounds:
+/// first corner to the origin. Let det = e1 . (d x e2). Proven properties:
 ///
-/// - If the ray hits the triangle and |det| >= 2^-46 D E E, the test reports a hit. Near the ends of the interval, the
-///   computed `t` decides.
-/// - No barycentric of a reported hit is below -2^-46 D E (|s| + 2 E) / |det|.
-/// - The error of `t` is at most 2^-51 E E (|s| + |t| D) / |det|, plus half an ulp of the final rounding.
-///
-/// Only needles and slivers have large errors.
+/// - If the line meets the triangle and |det| >= 2^-46 D E E, the test finds the intersection. The test compares the
+///   computed `t` with the ends of the interval.
+/// - No barycentric coordinate of a reported hit is below -2^-46 D E (|s| + 2 E) / |det|.
+/// - The error of `t` is at most 2^-51 E E (|s| + |t| D) / |det|, plus half an ulp for the rounding to `f32`.
 ///
 /// # References
 /// See [`MollerTrumbore`](super::MollerTrumbore).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MollerTrumboreF64;
 
-/// Returns the lanes whose triangle the line hits, as bits, and the `t` of all lanes.
+/// The bits of the first result mark the lanes where the line hits the triangle. The second result is `t`.
 ///
-/// **Bounds.** The analysis of `filter::filter_block` applies, with n = 2^-53 instead of w = 2^-24. Here, D and E are
-/// sums instead of maxima. The slack k = 40 n D E (|s| + 2 E) exceeds the errors of u, v and det - u - v. If a computed
-/// value is at least -k, the exact value is at least -2 k.
+/// **Bounds.** The documentation of `filter::filter_block` contains the analysis. Here, n = 2^-53 replaces w = 2^-24.
+/// The documentation of [`MollerTrumboreF64`] defines D, E and |s|. The slack k = 40 n D E (|s| + 2 E) exceeds the
+/// errors of u, v and det - u - v. If a computed value is at least -k, the exact value is at least -2 k.
 ///
-/// The error of det is less than 43 n D E E. The sign of det is certain if the computed |det| exceeds 80 n D E E.
-/// Otherwise the test reports no hit. An exact |det| of at least 2^7 n D E E ensures a certain sign.
+/// The error of det is less than 43 n D E E. If the computed |det| exceeds 80 n D E E, the sign of det is certain.
+/// Otherwise the test reports no hit. If the exact |det| is at least 2^7 n D E E, the computed |det| exceeds
+/// 80 n D E E.
 ///
-/// The error of h = e2 . (s x e1) is at most 8.1 n |e1| |e2| |s| <= 2.1 n E E |s|. A sharper analysis with sums bounds
-/// the error of det by 1.8 n D E E. Hence the error of t = h / det is less than 4 n E E (|s| + |t| D) / |det|.
+/// Let |e1| and |e2| be the sizes of e1 and e2. The error of h = e2 . (s x e1) is at most 8.1 n |e1| |e2| |s|, less
+/// than 2.1 n E E |s|. The error of det is also at most 7.1 n D |e1| |e2|, less than 1.8 n D E E. Hence the error of
+/// t = h / det is less than 4 n E E (|s| + |t| D) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     origin: LaneVec3<N, L>,

@@ -3,9 +3,10 @@ use crate::simd::{LaneVec3, Lanes, each};
 
 /// Edge test in `f32`. A ray hits a triangle if the ray passes all three edges on the same side.
 ///
-/// The two triangles at an edge compute opposite numbers for the edge. Hence no ray passes between the triangles. The
-/// test may lose rays through vertices. Products of three lengths overflow in scenes of size 1e13 and above, and
-/// underflow in scenes below 1e-12.
+/// No ray passes between two triangles at a common edge. A ray through a vertex may miss all triangles at the vertex.
+///
+/// In scenes of size 1e13 and above, products of three lengths may overflow. In scenes of size below 1e-12, products of
+/// three lengths may underflow.
 ///
 /// # References
 /// Shoemake: Plücker coordinate tutorial. Ray Tracing News 11(1), 1998. Segura, Feito: Algorithms to test ray-triangle
@@ -29,7 +30,7 @@ impl TriangleTest for Plucker {
         let corners = block.load::<L>();
         let [a, b, c] = each(&corners, |&corner| corner - origin);
         let volumes = each(&[c.cross(b), a.cross(c), b.cross(a)], |&side| direction.dot(side));
-        // The triangle is closed, so any volume may be zero.
+        // Edges belong to the triangle, so the comparisons accept zero.
         let zero = L::zero();
         let above = volumes.iter().fold(u32::MAX, |lanes, v| lanes & zero.le(*v));
         let below = volumes.iter().fold(u32::MAX, |lanes, v| lanes & v.le(zero));

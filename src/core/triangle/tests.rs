@@ -20,7 +20,7 @@ pub(crate) fn unit(rng: &mut Pcg32) -> f32 {
     rng.next_u32() as f32 / u32::MAX as f32 * 2.0 - 1.0
 }
 
-/// Small integers often give zeros, parallel rays, and hits on edges and corners.
+/// Small integers often give hits on edges and corners.
 pub(crate) fn grid(rng: &mut Pcg32) -> f32 {
     (rng.next_u32() % 5) as f32 - 2.0
 }
@@ -58,7 +58,6 @@ fn true_t(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
 }
 
 fn hard(rng: &mut Pcg32, round: usize) -> (Ray, [Vec3; 3]) {
-    // The scale is random, because each intermediate result underflows at a different scale.
     let scale = f32::from_bits((1 + rng.next_u32() % 251) << 23);
     match round % 4 {
         0 => (ray(rng, any), triangle(rng, any)),
@@ -67,7 +66,6 @@ fn hard(rng: &mut Pcg32, round: usize) -> (Ray, [Vec3; 3]) {
             (aimed(rng, corners), corners)
         }
         2 => {
-            // A sliver far from the origin.
             let shift = point(rng, unit) * (scale * 1e3);
             let [a, b, _] = triangle(rng, unit).map(|p| p * scale + shift);
             let corners = [a, b, a + (b - a) * unit(rng) + point(rng, unit) * (scale * 1e-6)];

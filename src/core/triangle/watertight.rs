@@ -4,26 +4,25 @@ use super::{Corners, TriangleTest};
 use crate::geometry::Ray;
 use crate::simd::{Lanes, each, indexed};
 
-/// The watertight test in `f32`. It shears space to align the ray with the third axis, and tests edges in 2D.
+/// The watertight test in `f32`. The test shears space to align the ray with the third axis.
 ///
-/// For one ray, a corner is sheared to the same point in every triangle. The sign of an edge value is exact for the
-/// sheared corners. Hence no ray passes between the triangles of a closed mesh.
+/// No ray passes between the triangles of a closed mesh.
 ///
-/// Shearing rounds, so a ray within an ulp of an edge may go to either side. The `t` of slivers may be off by thousands
-/// of ulps. The test may lose hits at `t` above 3e26. It may also lose hits if the largest direction component is below
-/// 3e-39 or above 8e37.
+/// Shearing causes rounding errors. A ray within an ulp of an edge may hit the triangle on the wrong side of the edge.
+/// The `t` of a hit on a sliver may be off by thousands of ulps. The test may lose hits at `t` above 3e26.
+///
+/// The largest magnitude of a direction component must be from 3e-39 to 8e37. Otherwise, the test may lose hits.
 ///
 /// # References
 /// Woop, Benthin, Wald: Watertight ray/triangle intersection. Journal of Computer Graphics Techniques 2(1), 2013.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Watertight;
 
-/// A ray with permuted axes. The third axis is the axis of the largest direction component.
+/// A ray with permuted axes. The direction component along the third axis has the largest magnitude.
 #[derive(Clone, Copy, Debug)]
 pub struct ShearedRay {
-    /// The axes in the order x, y, z of the sheared space.
     axes: [usize; 3],
-    /// The origin in the order of `axes`.
+    /// The components of the origin, in the order of `axes`.
     origin: [f32; 3],
     shear: [f32; 3],
 }
@@ -39,9 +38,9 @@ impl TriangleTest for Watertight {
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> ShearedRay {
-        // If the third component is negative, the swap of two axes keeps the winding.
         let z = ray.direction.abs().max_position();
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
+        // The swap preserves the winding of the triangles.
         if ray.direction[z] < 0.0 {
             (x, y) = (y, x);
         }
@@ -93,11 +92,11 @@ impl TriangleTest for Watertight {
     }
 }
 
-/// For sums of edge values from `SMALL` to `LARGE`, the computation of `t` neither overflows nor underflows.
+/// If the magnitude of `det` is below `SMALL` or above `LARGE`, the computation of `t` may overflow or underflow.
 const SMALL: f32 = 1.0 / (1_u128 << 100) as f32;
 const LARGE: f32 = (1_u64 << 40) as f32;
 
-/// A power of two scales the three values of a lane. This scaling changes neither the signs nor `t`.
+/// The function may multiply the three values of a lane by a power of two. The factor cancels in `t`.
 #[cold]
 fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) -> [L; 3] {
     let mut values = each(&volumes, |v| v.store());
@@ -107,7 +106,7 @@ fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) 
         if [u, v, w].iter().all(|v| *v != 0.0) && (SMALL..=LARGE).contains(&(u + v + w).abs()) {
             continue;
         }
-        // A product of two `f32` is exact in `f64`. Hence the sign of a difference of two such products is exact.
+        // Products of two `f32` are exact in `f64`. Hence the sign of each difference is exact.
         let [[ax, bx, cx], [ay, by, cy]] = each(&[xs, ys], |v| each(v, |corner| f64::from(corner[lane])));
         let exact = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
         let largest = exact.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
@@ -119,7 +118,7 @@ fn in_f64<const N: usize, L: Lanes<N>>(volumes: [L; 3], xs: [L; 3], ys: [L; 3]) 
     each(&values, L::load)
 }
 
-/// The reciprocal of the largest power of two up to `x`. `x` must be positive and far from the limits of `f64`.
+/// The reciprocal of the largest power of two up to `x`. `x` must be positive, normal and below 2^1023.
 fn inverse_power_of_two(x: f64) -> f64 {
     f64::from_bits((2046 - (x.to_bits() >> 52)) << 52)
 }

@@ -1,4 +1,4 @@
-//! Golden images for the tests of other crates.
+//! Compares pictures with golden images in tests.
 
 use std::path::Path;
 
@@ -10,10 +10,10 @@ use super::{GoldenError, Match, PictureError, failure, file};
 /// If this environment variable has the value `update`, [`assert_image`] writes golden images instead of comparing.
 pub const UPDATE: &str = "SAHARA_GOLDEN";
 
-/// This path is relative to the current directory, which is the crate's folder in tests.
+/// The path is relative to the current directory. In tests, the current directory is the folder of the crate.
 const OUT: &str = "out/golden";
 
-/// Compares all channels of `actual`, including alpha, with the golden image `path`.
+/// Compares all channels of `actual`, including alpha, with the golden image at `path`.
 ///
 /// If the environment has `SAHARA_GOLDEN=update`, the function writes `actual` to `path` as PNG instead.
 ///
@@ -39,11 +39,12 @@ const OUT: &str = "out/golden";
 /// ```
 ///
 /// # Panics
-/// If `how` rejects the picture, or if the size, channels or bits per channel differ. If the golden image cannot be
-/// read or written.
+/// If `how` rejects `actual`. If the size, channels or bits per channel differ. If the golden image cannot be read or
+/// written.
 ///
-/// If the pictures differ, the message names a page with the two pictures and the difference. The page is in a folder
-/// of `out/golden` with the name of the golden image. Without the feature `page`, this folder contains no HTML page.
+/// If the comparison fails, the message contains the path of a page with the two pictures and the difference. The page
+/// is in `out/golden/NAME`. `NAME` is the file name of the golden image without the extension. Without the feature
+/// `page`, the message contains the path of the folder `out/golden/NAME` instead.
 #[track_caller]
 pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how: Match) {
     let (path, actual) = (path.as_ref(), actual.into());
@@ -56,10 +57,12 @@ pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how
     }
 }
 
-/// Like [`assert_image`], but returns the error, never updates, and writes the pictures of a failure to `out`.
+/// Like [`assert_image`], but returns the error. The function never writes the golden image.
+///
+/// The pictures of a failed comparison are written to a folder in `out`.
 ///
 /// # Errors
-/// If the picture is not accepted, or the golden image cannot be read.
+/// If `how` rejects `actual`. If the size, channels or bits per channel differ. If the golden image cannot be read.
 pub fn check_image(path: &Path, actual: &DynamicImage, how: Match, out: &Path) -> Result<(), GoldenError> {
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
     let remedy = "run the test once with SAHARA_GOLDEN=update to create the golden image";
@@ -105,11 +108,10 @@ mod tests {
         assert!(small.contains("1 x 1 pixels") && small.contains("SAHARA_GOLDEN=update"), "{small}");
         assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap().width(), 1);
 
-        // The pictures of a failure show floats with 8 bits.
         refusal(&Rgb32FImage::new(2, 2).into(), Match::Exact);
         assert_eq!(read(&out.join("b/pictures/0-actual.png")).unwrap().width(), 2);
 
-        // The message contains the reason even if the pictures cannot be written.
+        // The pictures cannot be written, because `out` is a file.
         std::fs::remove_dir_all(&out).unwrap();
         std::fs::write(&out, b"no folder").unwrap();
         let reason = refusal(&picture(11), Match::Exact);

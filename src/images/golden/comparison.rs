@@ -8,16 +8,16 @@ use super::rule::{Limit, Match, NoFlip, differ};
 use super::{Difference, Layout, Mask, difference_picture};
 use crate::plural::{count, plural};
 
-/// The result of a comparison. The failing verdicts precede `Accepted`, because [`Comparison::fails`] uses this order.
+/// The result of a comparison. [`Comparison::fails`] requires that all failing verdicts precede `Accepted`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     Differs,
-    /// A picture is unreadable, or the rule or the mask does not fit the pictures.
+    /// An error prevented the comparison, for example an unreadable picture.
     Failed,
     Missing,
     Additional,
-    /// The pictures differ, but the rule accepts them.
+    /// The rule accepts the difference.
     Accepted,
     Identical,
 }
@@ -31,7 +31,7 @@ pub struct Comparison {
     /// A command that investigates the difference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub command: Option<String>,
-    /// `None` without `measures` and for [`Match::Exact`].
+    /// `None` if `measures` is `None` or the rule is [`Match::Exact`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<Limit>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -48,7 +48,7 @@ impl Comparison {
         Self { name: name.into(), verdict, said: vec![sentence.into()], command: None, limit: None, measures: None }
     }
 
-    /// Removes the sizes of differences. The size of a difference between primitive numbers has no meaning.
+    /// Removes the sizes of the differences. The size of a difference between primitive numbers has no meaning.
     #[must_use]
     pub fn without_sizes(self, size: [u32; 2]) -> Self {
         let Some(measures) = self.measures.map(Measures::without_sizes) else { return self };
@@ -60,7 +60,7 @@ impl Comparison {
     }
 }
 
-/// The maps are `None` if the pictures are equal or cannot be compared.
+/// The maps are `None` if `measures` is `None`.
 pub fn compare(
     name: &str,
     [expected, actual]: [&DynamicImage; 2],

@@ -1,4 +1,4 @@
-//! The difference of two pictures with the same size, channels and depth.
+//! The difference between two pictures with equal layouts.
 
 use image::{DynamicImage, RgbImage};
 use serde::Serialize;
@@ -9,13 +9,13 @@ use crate::render::from_pixels;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Difference {
     pub pixels: usize,
-    /// Column and row, from the top left, of the first different pixel.
+    /// Column and row of the first pixel that differs, in reading order.
     pub first: [u32; 2],
     /// Column and row of the first pixel with the largest difference.
     pub worst: [u32; 2],
-    /// The largest difference of a channel, including alpha. A NaN in only one of the pictures gives infinity.
+    /// The largest difference over all pixels and all channels, including alpha.
     pub largest: f64,
-    /// The value of white, in the unit of `largest`: 255, 65535, or 1 for floats.
+    /// The channel value of white: 255, 65535, or 1 for floats.
     pub full_scale: f64,
 }
 
@@ -48,7 +48,7 @@ impl Difference {
 /// If the layouts differ.
 pub fn pixels_over(one: &DynamicImage, other: &DynamicImage, difference: f64) -> usize {
     let layout = Layout::of(one);
-    // Multiply both sides: a division could round a value across the limit.
+    // Both sides of the comparison are multiplied. A division could round a difference across the limit.
     let (own, limit) = if layout.is_float() { (1.0, difference) } else { (255.0, difference * layout.full_scale()) };
     gaps(one, other).filter(|gap| gap * own > limit).count()
 }
@@ -77,7 +77,7 @@ fn gaps<'a>(one: &'a DynamicImage, other: &'a DynamicImage) -> impl Iterator<Ite
     pixels(one).zip(pixels(other)).map(gap)
 }
 
-/// NaNs are equal to each other, and infinitely far from all other values.
+/// Returns 0 if both values are NaN. Returns infinity if only one value is NaN.
 pub(super) fn apart(one: f64, other: f64) -> f64 {
     let gap = (one - other).abs();
     if one == other || one.is_nan() && other.is_nan() {

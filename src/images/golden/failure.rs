@@ -1,4 +1,4 @@
-//! Compares a picture with a golden image, and writes a page of the differences.
+//! Compares a picture with a golden image. A page shows each rejected picture.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub fn check(
     remedy: &'static str,
 ) -> Result<(), GoldenError> {
     let [wanted, found] = pictures.map(Layout::of);
-    // Skip FLIP and SSIM for an accepted picture, because they take long.
+    // The check of a tolerance does not need the slow measures FLIP and SSIM.
     let is_tolerance = matches!(how, Match::Tolerance { .. }) && wanted == found;
     if is_tolerance && how.limit(pictures, None, None).is_some_and(|limit| limit.is_met()) {
         return Ok(());

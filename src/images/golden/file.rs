@@ -1,4 +1,4 @@
-//! Reads pictures up to a maximum size, and writes PNG files.
+//! Reads pictures and writes PNG files.
 
 use std::fs::File;
 use std::io::{Cursor, Error, Read};
@@ -11,7 +11,7 @@ use crate::escaped::Escaped as _;
 use crate::output::{OutputError, OutputFile};
 use crate::render::png_encoder;
 
-/// The maximum size of a file and its pixels together, in MiB.
+/// The maximum size, in MiB, of a file plus its decoded pixels.
 const LARGEST: u64 = 512;
 
 #[derive(Debug, thiserror::Error)]
@@ -45,18 +45,18 @@ fn in_a_line(cause: &ImageError) -> String {
     cause.to_string().lines().collect::<Vec<_>>().join(" ")
 }
 
-/// Keeps the channels and bits per channel, except for PNG palettes, transparent colours and grey below 8 bits.
-/// The content of the file, not its name, determines the format.
+/// PNG files keep their channels and bits per channel. Only palettes, transparent colours and grey below 8 bits are
+/// expanded. The content of the file, not its name, determines the format.
 ///
 /// # Errors
-/// If the file cannot be read, is damaged, is not a picture, or takes more than 512 MiB together with its pixels.
+/// If the file cannot be read, is damaged, is not a picture, or takes more than 512 MiB with its decoded pixels.
 pub fn read(path: &Path) -> Result<DynamicImage, PictureError> {
     decode(path, &read_bytes(path)?)
 }
 
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, PictureError> {
     let mut bytes = vec![];
-    // The extra byte makes `decode` reject a larger file.
+    // Because of the extra byte, `decode` rejects files above the limit.
     let file = File::open(path).and_then(|file| file.take((LARGEST << 20) + 1).read_to_end(&mut bytes));
     file.map_err(|cause| PictureError::Read { path: path.into(), cause })?;
     Ok(bytes)
@@ -80,17 +80,17 @@ fn decoded(bytes: &[u8]) -> ImageResult<DynamicImage> {
     Ok(picture)
 }
 
-/// The decoder does not report a truncated JPEG file: it fills missing pixels with grey.
+/// The JPEG decoder fills missing pixels of a truncated file with grey, without an error.
 fn is_whole_jpeg(bytes: &[u8]) -> bool {
     let last = |mark: [u8; 2]| bytes.windows(2).rposition(|pair| pair == mark);
     let (scan, end) = (last([0xFF, 0xDA]), last([0xFF, 0xD9]));
     end > scan
 }
 
-/// Writes a PNG file, whole or not at all, and creates its folders.
+/// Writes a PNG file atomically. Creates missing folders.
 ///
 /// # Errors
-/// If the disk is full, the folder is not writable, or PNG does not support the channels.
+/// If the disk is full, the folder is not writable, or PNG does not support the layout of the picture.
 pub fn write(path: &Path, picture: &DynamicImage) -> Result<(), PictureError> {
     write_noted(path, picture, None)
 }
@@ -104,10 +104,10 @@ pub(super) fn write_noted(path: &Path, picture: &DynamicImage, note: Option<&str
     Ok(OutputFile::check(path)?.write(&bytes)?)
 }
 
-/// The same picture and note must always give the same bytes, because `is_own` compares them with a file.
+/// The encoding must be deterministic, because `is_own` compares bytes.
 pub(super) fn encode(picture: &DynamicImage, note: Option<&str>) -> ImageResult<Vec<u8>> {
     let mut bytes = vec![];
-    // Unlike other functions of `image`, `write_image` rejects layouts that PNG does not support.
+    // `write_image` returns an error for a layout that PNG does not support.
     let [width, height] = [picture.width(), picture.height()];
     png_encoder(&mut bytes).write_image(picture.as_bytes(), width, height, picture.color().into())?;
     if let Some(note) = note {
@@ -144,15 +144,14 @@ mod tests {
 
     use super::*;
 
-    /// One black and one white pixel of 1 bit.
+    /// A 1-bit PNG file with one black and one white pixel.
     const GREY_1: &str = "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABAQAAAADcWUInAAAACklEQVR4nGNwAAAAQgBBKTf07wAAAABJRU5ErkJggg==";
 
     #[test]
     fn pictures_of_another_writer_keep_their_channels_and_depth() {
-        // Written by Pillow 12.
+        // Pillow 12 wrote these files.
         for (text, color, values) in [
             (GREY_1, ColorType::L8, &[0, 255][..]),
-            // A palette, the same palette with a transparent second colour, and RGB with a transparent colour.
             (
                 "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABAQMAAADO7O3JAAAABlBMVEUHCAkBAgNf59QzAAAACklEQVR4nGNwAAAAQgBBKTf07wAAAABJ\
                  RU5ErkJggg==",
@@ -229,7 +228,7 @@ mod tests {
         let good = base64::decode(GREY_1).unwrap();
         for length in 0..good.len() {
             fs::write(&path, &good[..length]).unwrap();
-            // Eight bytes identify the format. The last 12 bytes are an empty chunk, which may be missing.
+            // The first eight bytes identify the format. The last 12 bytes, an empty chunk, may be missing.
             if (8..good.len() - 12).contains(&length) {
                 refusal("damaged or truncated");
             }

@@ -5,12 +5,11 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Files other than PNG can be read only with the feature `pictures`.
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "webp", "exr"];
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair {
-    /// The path relative to the folder.
+    /// The path relative to each of the two folders.
     pub name: PathBuf,
     pub expected: Option<PathBuf>,
     pub actual: Option<PathBuf>,
@@ -37,7 +36,7 @@ fn pictures(folder: &Path) -> io::Result<BTreeSet<PathBuf>> {
             let entry = entry?;
             let name = below.join(entry.file_name());
             let ending = name.extension().and_then(|ending| ending.to_str()).unwrap_or("").to_lowercase();
-            // Links to folders are not followed, because they may form a cycle.
+            // Symbolic links to folders are not followed, because links may form a cycle.
             if entry.file_type()?.is_dir() {
                 left.push(name);
             } else if ENDINGS.contains(&ending.as_str()) {

@@ -1,14 +1,14 @@
-//! The layout of a picture, and the values of its channels as numbers.
+//! Layouts and channel values of pictures.
 
 use std::fmt::{self, Display, Formatter};
 
 use image::DynamicImage;
 
-/// Two pictures can be compared only if their layouts are equal.
+/// Only pictures with equal layouts can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     pub size: [u32; 2],
-    /// 1 is grey, 2 is grey and alpha, 3 is RGB, 4 is RGB and alpha.
+    /// 1: grey, 2: grey with alpha, 3: RGB, 4: RGBA.
     pub channels: u8,
     /// Bits per channel: 8 or 16, or 32 for floats.
     pub bits: u8,
@@ -29,7 +29,7 @@ impl Layout {
         }
     }
 
-    /// Floats may be less than 0 or more than 1.
+    /// Float values may be less than 0 or more than 1.
     pub fn is_float(&self) -> bool {
         self.bits == 32
     }

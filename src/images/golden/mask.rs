@@ -30,8 +30,8 @@ impl Mask {
         self.compared.iter().filter(|compared| !**compared).count()
     }
 
-    /// Copies the excluded pixels of `expected` to `actual`. Sums and windows of the measures then find no difference
-    /// there. The pictures must have the same layout and the size of the mask.
+    /// Copies the excluded pixels of `expected` to `actual`. The measures then find no difference in excluded
+    /// pixels. The pictures must have the same layout. The pictures and the mask must have the same size.
     pub(super) fn applied(&self, expected: &DynamicImage, mut actual: DynamicImage) -> DynamicImage {
         macro_rules! of_one_kind {
             ($($kind:ident)*) => {

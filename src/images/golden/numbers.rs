@@ -1,7 +1,7 @@
 //! PNG files that store one 32-bit number per pixel without loss.
 //!
-//! Each pixel stores its number in two channels of 16 bits: the upper half in grey, the lower half in alpha. Golden
-//! images of your renderer may use the same format:
+//! Each pixel has two channels of 16 bits. Grey stores the upper half of the number. Alpha stores the lower half.
+//! Golden images of your renderer may use this format:
 //!
 //! ```
 //! use sahara_images::golden::numbers::packed;
@@ -32,7 +32,7 @@ pub fn unpacked(picture: &DynamicImage) -> Option<Vec<u32>> {
     Some(halves.iter().map(|[upper, lower]| u32::from(*upper) << 16 | u32::from(*lower)).collect())
 }
 
-/// The bits of each number become an `f32` in all three channels of its pixel.
+/// All three channels of a pixel are `f32::from_bits` of the number.
 pub fn as_floats([width, height]: [u32; 2], numbers: &[u32]) -> DynamicImage {
     let values = numbers.iter().flat_map(|number| [f32::from_bits(*number); 3]).collect();
     Rgb32FImage::from_raw(width, height, values).expect("one number per pixel").into()

@@ -9,12 +9,12 @@ use super::mask::Mask;
 use super::measures::{FlipMap, PIXELS_PER_DEGREE};
 use crate::plural::{count, plural};
 
-/// Every rule also requires equal size, channels and bits per channel.
+/// All rules require pictures with equal layouts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Match {
     Exact,
-    /// At most `pixels` pixels have a channel that differs by more than `difference`. The unit of `difference` is 1/255
-    /// of full scale, or 1 for floats.
+    /// `pixels` limits the number of pixels with a channel that differs by more than `difference`. The unit of
+    /// `difference` is 1/255 of full scale, or 1 for floats.
     Tolerance {
         difference: f64,
         pixels: Allowed,
@@ -43,7 +43,7 @@ impl Match {
         Self::Flip { mean, pixels_per_degree: PIXELS_PER_DEGREE }
     }
 
-    /// The pictures must have the same layout. [`Mask::applied`] must have made their masked pixels equal.
+    /// The pictures must have the same layout. Each masked pixel must be equal in both pictures.
     pub(super) fn limit(
         self,
         [expected, actual]: [&DynamicImage; 2],
@@ -76,7 +76,7 @@ impl Allowed {
     fn of(self, compared: usize) -> usize {
         match self {
             Self::Pixels(pixels) => pixels,
-            // Rounding down is correct, because the number of different pixels is whole.
+            // Rounding down changes no verdict, because `pixels_over` is an integer.
             Self::Percent(percent) => (percent * compared as f64 / 100.0) as usize,
         }
     }
@@ -113,7 +113,7 @@ impl Limit {
                 format!("{pixels} {}{more}, and {} {are} allowed", differ(pixels_over), count(allow_pixels as u64))
             }
             Self::Flip { flip_mean, max_flip } => {
-                // Add decimals until the rounded mean is on the same side of the limit as the mean.
+                // Add decimals until rounding does not move the mean across the limit.
                 let is_true = |text: &String| {
                     text.parse::<f64>().is_ok_and(|rounded| (rounded <= max_flip) == (flip_mean <= max_flip))
                 };

@@ -1,4 +1,4 @@
-//! Golden images of scenes: renders, checks and updates their files.
+//! Renders, checks and updates the golden images of scenes.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -12,18 +12,18 @@ use crate::render::{ViewKind, from_pixels, normal_colour, of_colours, shade};
 use crate::scene::{Camera, Scene, View};
 use crate::triangle::{Exact, TriangleTest};
 
-/// The triangle test that renders golden images. Its hits do not depend on rounding.
+/// By default, golden images are rendered with this triangle test. Its hits do not depend on rounding.
 pub const TRIANGLE_TEST: &str = Exact::NAME;
 
 /// Width and height of a golden image of a built-in scene.
 pub const SIZE: [u32; 2] = [160, 160];
 
-/// The pixels of these views depend only on the hits, not on the cost of finding them.
+/// The pixels of these views depend only on the hits.
 pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive];
 
 const REMEDY: &str = "create the golden images with `sahara golden update`";
 
-/// The golden image of a view of a scene: a file, or data compiled into this program.
+/// The golden image of one view of a scene, as a file or compiled into the program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneGolden {
     pub view: ViewKind,
@@ -32,7 +32,7 @@ pub struct SceneGolden {
     shown_path: PathBuf,
     /// The file's content for a built-in scene. `None` for a golden image in a folder.
     bytes: Option<&'static [u8]>,
-    /// The camera that the file records. `None` for a built-in scene.
+    /// The requested camera. `None` for a built-in scene.
     note: Option<String>,
 }
 
@@ -41,13 +41,13 @@ pub enum Update {
     Same,
     New,
     Changed(Difference),
-    /// The old layout, if size, channels or bits per channel changed.
+    /// The layout changed. The field is the old layout.
     Layout(Layout),
 }
 
 impl SceneGolden {
     /// The shaded view of a built-in scene. `bytes` is the content of the PNG file. [`update`](Self::update) writes
-    /// `file` in the source tree `sources`, which may be missing at run time.
+    /// to `file` in the source tree `sources`. The source tree may be missing at run time.
     pub fn in_program(bytes: &'static [u8], sources: &Path, file: &Path) -> Self {
         let (path, shown_path) = (sources.join(file), file.into());
         Self { view: ViewKind::Shaded, size: SIZE, path, shown_path, bytes: Some(bytes), note: None }
@@ -64,20 +64,20 @@ impl SceneGolden {
         self.bytes.is_some()
     }
 
-    /// For a built-in scene, only [`update`](Self::update) reads and writes this file.
+    /// For a built-in scene, only [`update`](Self::update) uses the file at this path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The path for messages. The path of a built-in scene is relative, because absolute paths differ between machines.
+    /// The path for messages. For a built-in scene, the path is relative to the source tree.
     pub fn display_path(&self) -> &Path {
         &self.shown_path
     }
 
-    /// The golden image for the comparison: packed depths become floats.
+    /// The golden image in the form for comparisons. Packed depths are unpacked to floats.
     ///
     /// # Errors
-    /// If the golden image is missing or damaged, or its size or camera differs.
+    /// If the golden image is missing or damaged, or does not have the requested size and camera.
     pub fn expected(&self) -> Result<DynamicImage, GoldenError> {
         let missing = |cause| GoldenError::Missing { cause, remedy: REMEDY };
         let read = || file::read_bytes(&self.path).map_err(missing);
@@ -109,12 +109,13 @@ impl SceneGolden {
         scene.primary_rays(self.size, View::CENTRE, pixel..pixel + 1)[0]
     }
 
-    /// If the pictures differ, writes a page to the folder `SCENE-STRUCTURE` in `out`.
+    /// Compares the golden image with the picture that `accel` renders. If the pictures differ, writes a page to the
+    /// folder `SCENE-STRUCTURE` in `out`.
     ///
     /// A built-in scene must have its generated meshes, not downloaded meshes.
     ///
     /// # Errors
-    /// If the golden image is missing or damaged, its size or camera differs, or the pictures differ.
+    /// If [`expected`](Self::expected) fails, or the pictures differ.
     pub fn check(&self, scene: &Scene, structure: &str, accel: &dyn DynAccel, out: &Path) -> Result<(), GoldenError> {
         let pictures = [&self.expected()?, &self.drawn(scene, accel)];
         let shown = failure::folder(out, &format!("{}-{structure}", scene.name.to_lowercase()));
@@ -170,7 +171,7 @@ impl SceneGolden {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite {
-    /// Files that [`SceneGolden::update`] has written.
+    /// Only files written by [`SceneGolden::update`].
     Own,
     Any,
 }
@@ -228,7 +229,7 @@ mod tests {
         assert_eq!(fs::read_dir(directory.path().join("goldens")).unwrap().count(), 4);
         assert!(!out.exists());
 
-        // Another background changes every pixel that misses, including the first.
+        // The new background changes all pixels whose ray misses, including the first pixel.
         scene.background.x += 0.5;
         let golden = SceneGolden::file(&directory.path().join("goldens"), "cube", ViewKind::Shaded, &scene);
         let error = golden.check(&scene, "sah-kd:leaf=1", &tree, &out).unwrap_err();

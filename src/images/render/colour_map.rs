@@ -1,10 +1,10 @@
-//! The colour map of the heat view.
+//! The colour map of the heat view, which shows the cost of each pixel.
 
 use image::RgbImage;
 
 use super::picture::from_pixels;
 
-/// Nine equidistant colours of the map "inferno".
+/// Nine equally spaced colours of the colour map "inferno".
 ///
 /// # References
 /// Smith, van der Walt, Firing: the colour maps of Matplotlib 1.5, 2015 (dedicated to the public domain, CC0).
@@ -20,7 +20,7 @@ const INFERNO: [[u8; 3]; 9] = [
     [252, 255, 164],
 ];
 
-/// The scale is logarithmic, because the costs of two structures can differ by a factor of a hundred.
+/// The colour of `cost` on a logarithmic scale. The scale ends at `hottest`.
 pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
     // The logarithm of `libm` is the same on every machine.
     ramp(match hottest {
@@ -29,9 +29,9 @@ pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
     })
 }
 
-/// The colour of the map at `share`, from 0 to 1.
+/// The colour at position `share` of the map. `share` is from 0 to 1.
 pub fn ramp(share: f64) -> [u8; 3] {
-    // 255 steps between neighbouring colours.
+    // Two neighbouring colours of `INFERNO` are 255 steps apart.
     let steps = ((INFERNO.len() - 1) * 255) as f64;
     let step = libm::round(share * steps) as usize;
     let (index, fraction) = (step / 255, (step % 255) as u32);
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn the_scale_runs_from_black_to_pale_yellow_and_stays_there() {
-        // 9 is in the middle between 0 and 99, because 1 + cost is 1, 10 and 100.
+        // The logarithm of 1 + 9 is halfway between the logarithms of 1 + 0 and 1 + 99.
         assert_eq!([heat(0, 99), heat(9, 99), heat(99, 99)], [INFERNO[0], INFERNO[4], INFERNO[8]]);
         assert_eq!([heat(11, 10), heat(u64::MAX, 10), heat(u64::MAX, u64::MAX)], [INFERNO[8]; 3]);
         assert_eq!(heat(3, 0), INFERNO[0]);

@@ -1,4 +1,4 @@
-//! A picture that marks the pixels with wrong hits.
+//! A picture that shows the errors of a structure.
 
 use image::RgbImage;
 use rayon::prelude::*;
@@ -34,8 +34,10 @@ pub struct ErrorMap {
     pixels: Vec<(Outcome, Option<Hit>)>,
 }
 
-/// The outcomes that are painted as errors. Colour-blind people can distinguish the colours: Okabe, Ito, Color
-/// universal design, 2008.
+/// The outcomes that are painted as errors. Colour-blind people can distinguish the colours.
+///
+/// # References
+/// Okabe, Ito, Color universal design, 2008.
 const PAINTED: [(Outcome, &str, &str, [u8; 3]); 4] = [
     (Outcome::Missed, "missed", "vermilion", [213, 94, 0]),
     (Outcome::FalseHit, "false hit", "yellow", [240, 228, 66]),
@@ -48,7 +50,8 @@ pub fn error_name(outcome: Outcome) -> Option<&'static str> {
     PAINTED.iter().find(|(painted, ..)| *painted == outcome).map(|(_, name, ..)| *name)
 }
 
-/// The grey of the nearest correct hit. All error colours are brighter.
+/// The grey level of the nearest correct hit. Grey levels are from 0 to 255. All error colours are brighter than this
+/// grey level.
 const BRIGHTEST: f32 = 90.0;
 
 impl ErrorMap {
@@ -58,7 +61,7 @@ impl ErrorMap {
     }
 
     /// # Panics
-    /// If there are more or fewer hits than pixels.
+    /// If the number of hits differs from the number of pixels.
     pub fn of(exact: &ExactPicture, hits: impl IntoIterator<Item = Option<Hit>>) -> Self {
         let check = |(pixel, hit)| (exact.outcome(pixel, hit), hit);
         let pixels: Vec<_> = hits.into_iter().enumerate().map(check).collect();
@@ -80,7 +83,7 @@ impl ErrorMap {
         format!("{}, correct {right} (grey, brighter where nearer); errors are three pixels wide", painted.join(", "))
     }
 
-    /// Name, number of pixels, and colour (red, green, blue) of each error.
+    /// The name, pixel count and RGB colour of each outcome that is painted as an error.
     pub fn colours(&self) -> [(&'static str, usize, [u8; 3]); 4] {
         PAINTED.map(|(outcome, name, _, colour)| (name, self.count(outcome), colour))
     }
@@ -89,13 +92,13 @@ impl ErrorMap {
         let right = |(outcome, hit): &(Outcome, Option<Hit>)| hit.filter(|_| *outcome == Outcome::Right);
         let nearest = self.pixels.iter().filter_map(right).fold(f32::INFINITY, |near, hit| near.min(hit.t));
         let colour = |pixel: &(Outcome, Option<Hit>)| {
-            // Even the farthest hit keeps a third of the brightness, because a miss is black.
+            // The darkest grey level of a hit is a third of `BRIGHTEST`, because a miss is black.
             let light = |hit: Hit| 1.0 / 3.0 + 2.0 / 3.0 * if hit.t > nearest { nearest / hit.t } else { 1.0 };
             let grey = pixel.1.map_or(0, |hit| (BRIGHTEST * light(hit)) as u8);
             PAINTED.iter().find(|(outcome, ..)| *outcome == pixel.0).map_or([grey; 3], |(.., colour)| *colour)
         };
         let mut colours: Vec<[u8; 3]> = self.pixels.iter().map(colour).collect();
-        // An error also colours its eight neighbours, because a single pixel is hard to see.
+        // An error also colours neighbouring pixels without errors, because a single pixel is hard to see.
         let [width, height] = self.size.map(i64::from);
         for error in self.errors() {
             let (x, y) = (error as i64 % width, error as i64 / width);

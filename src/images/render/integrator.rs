@@ -1,4 +1,4 @@
-//! Renders Phong materials, hard shadows and mirrors, like the course of the source report.
+//! Renders Blinn-Phong materials, hard shadows and mirrors.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -13,15 +13,15 @@ pub struct RayCounts {
     pub primary: u64,
     /// One closest-hit ray per hit on a mirror material, up to the recursion limit.
     pub mirror: u64,
-    /// One any-hit ray per light and per hit of a primary or mirror ray.
+    /// One any-hit ray per light for each hit of a primary or mirror ray.
     pub shadow: u64,
 }
 
-/// Pixels per batch.
+/// Rays per batch.
 const CHUNK: usize = 4096;
 
-/// The linear RGB colours of primary rays. `accel` must be built over the scene's mesh. Batches and threads do not
-/// change the colours.
+/// The linear RGB colours of primary rays. `accel` must be built over the scene's mesh. The colours do not depend
+/// on the number of threads.
 pub fn shade(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Vec3> {
     rays.par_chunks(CHUNK).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
 }
@@ -37,9 +37,9 @@ pub fn count_rays(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> RayCount
 
 #[derive(Default)]
 struct MirrorLevel {
-    /// The colour of each ray without the light of its mirror ray.
+    /// The colour of each ray, before the colour of its mirror ray is added.
     colours: Vec<Vec3>,
-    /// For each mirror ray of the next level, the index of its parent ray and its weight.
+    /// One pair per mirror ray: the index of the parent ray, and the weight of the mirror ray.
     mirrors: Vec<(usize, f32)>,
 }
 
@@ -55,7 +55,7 @@ fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>,
         rays = mirrored;
     }
 
-    // The colour of a mirror ray is clamped before it is multiplied by the weight.
+    // `balance` limits the colour of a mirror ray before the multiplication by the weight.
     let mut seen: Vec<Vec3> = vec![];
     for mut level in levels.into_iter().rev() {
         for ((parent, weight), colour) in level.mirrors.into_iter().zip(seen) {
@@ -101,9 +101,9 @@ fn shade_level(
     (level, mirrored)
 }
 
-/// Light that a surface reflects to the eye: Lambert (`Kd`) and Blinn-Phong (`Ks`, `Ns`).
+/// The light that a surface reflects to the eye, by the models of Lambert and Blinn-Phong.
 ///
-/// As in the course, the view vector points to the eye even if the surface is seen in a mirror.
+/// The view vector points to the eye, even if a mirror shows the surface.
 fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -> Vec3 {
     let normal = surface.shading_normal;
     let to_light = light.position - surface.point.position;

@@ -1,4 +1,4 @@
-//! Renders scenes: a shaded picture, and views of depths, normals, primitives, costs and errors.
+//! Renders pictures: shaded scenes, depths, normals, primitives, costs and errors.
 
 mod colour_map;
 mod error_map;

@@ -1,4 +1,4 @@
-//! Makes pictures of 8 bits per channel from colours, and encodes them as PNG.
+//! Converts colours to pictures with 8 bits per channel. Encodes pictures as PNG.
 
 use std::io::Write;
 
@@ -9,10 +9,10 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use crate::geometry::Ray;
 use crate::scene::{Scene, View};
 
-/// A picture of RGB pixels, row by row, the top row first.
+/// Makes a picture from RGB colours. `pixels` contains the rows of the picture from top to bottom.
 ///
 /// # Panics
-/// If the number of `pixels` is not width times height.
+/// If the number of `pixels` is not `width * height`.
 pub fn from_pixels([width, height]: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage {
     assert_eq!(pixels.len() as u64, u64::from(width) * u64::from(height), "one colour per pixel");
     RgbImage::from_raw(width, height, pixels.into_flattened()).expect("all pixels are there")
@@ -21,7 +21,7 @@ pub fn from_pixels([width, height]: [u32; 2], pixels: Vec<[u8; 3]>) -> RgbImage 
 /// Converts linear RGB colours to a picture, without a gamma curve. NaN becomes 0.
 ///
 /// # Panics
-/// Like [`from_pixels`].
+/// If the number of `colours` is not `size[0] * size[1]`.
 pub fn of_colours(size: [u32; 2], colours: &[Vec3]) -> RgbImage {
     from_pixels(size, colours.iter().map(|colour| colour.to_array().map(quantised)).collect())
 }
@@ -30,7 +30,7 @@ pub(super) fn quantised(channel: f32) -> u8 {
     (channel * 255.0 + 0.5) as u8
 }
 
-/// The encoder of all PNG files. Its settings are fixed, because the defaults of `image` may change.
+/// The encoder of all PNG files. The settings are explicit, because the defaults of `image` may change.
 pub fn png_encoder<W: Write>(file: W) -> PngEncoder<W> {
     PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Adaptive)
 }

@@ -1,4 +1,4 @@
-//! Compares ray counts with the counts in the source report.
+//! Compares our ray counts with the source report, a student report that this project reproduces.
 
 use super::count_rays;
 use super::picture::primary;
@@ -7,21 +7,21 @@ use crate::kdtree::{KdConfig, KdTree};
 use crate::scene::tests::of_the_report;
 use crate::triangle::Exact;
 
-/// `mirror` and `shadow` are from a recount with the course's renderer. `report` is the total in the report.
+/// `report` is the total number of rays in the source report. `mirror` and `shadow` are from a recount with the
+/// renderer of the student's course.
 struct Known {
     scene: &'static str,
     mirror: u64,
     shadow: u64,
     report: u64,
-    /// The largest accepted difference of the total from `report`.
+    /// The largest accepted difference between our total and `report`.
     within: u64,
-    /// The largest accepted difference of mirror and shadow rays from the recount.
+    /// The largest accepted difference between one of our counts and `mirror` or `shadow`.
     recount: u64,
 }
 
-/// Hits at edges depend on the rounding of the triangle test, and the report's test is unknown. The accepted
-/// differences are therefore observed, not derived. The back wall of Cornellbox is a mirror, which the report does not
-/// mention.
+/// The accepted differences are measured, not derived. The triangle test of the report is unknown. The rounding of a
+/// triangle test decides whether a ray hits at an edge.
 #[rustfmt::skip]
 const KNOWN: &[Known] = &[
     Known { scene: "Cube", mirror: 0, shadow: 20_648, report: 282_793, within: 1, recount: 0 },

@@ -15,11 +15,11 @@ named_enum! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum ViewKind {
         Shaded = "shaded",
-        /// Reciprocal distance: white for the nearest hit in the picture, dark grey for the farthest. Misses are black.
+        /// Reciprocal distance, from white (nearest hit) to dark grey (farthest hit). Misses are black.
         Depth = "depth",
-        /// Shading normal: x, y and z from -1 to 1 become red, green and blue. Misses are black.
+        /// The shading normal: x, y and z, from -1 to 1, become red, green and blue. Misses are black.
         Normal = "normal",
-        /// A unique colour for each primitive, the same in every picture. Misses are black.
+        /// The colour of a primitive depends only on its number. Misses are black.
         Primitive = "primitive",
         Heat = "heat",
         Error = "error",
@@ -38,11 +38,11 @@ impl FromStr for ViewKind {
     }
 }
 
-/// `accel` must be built over the scene's mesh. `hottest` is the cost that the heat view shows brightest. To compare
-/// structures, use one number for all of them.
+/// `accel` must be built over the scene's mesh. `hottest` is the cost with the brightest colour in the heat view.
+/// To compare structures, use the same `hottest` for all structures.
 ///
 /// # Errors
-/// If `view` is the heat view and the structure does not report triangle tests and traversal steps.
+/// In the heat view, if the structure does not count triangle tests or does not count traversal steps.
 pub fn draw(
     scene: &Scene,
     accel: &dyn DynAccel,
@@ -75,7 +75,7 @@ pub fn draw(
 /// The sum of triangle tests and traversal steps for each pixel, row by row.
 ///
 /// # Errors
-/// If the structure does not report triangle tests and traversal steps.
+/// If the structure does not count triangle tests or does not count traversal steps.
 pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<u64>, ViewError> {
     if accel.observed() != Observed::ALL {
         return Err(ViewError);
@@ -83,7 +83,7 @@ pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<
     Ok(Work::of(accel, &primary(scene, size)).iter().map(Work::cost).collect())
 }
 
-/// The scale of the heat view. The 99.5th percentile ignores a few extreme pixels.
+/// The cost with the brightest colour in the heat view: the 99.5th percentile of `costs`, at least 1.
 pub fn hottest(costs: &[u64]) -> u64 {
     let mut sorted = costs.to_vec();
     sorted.sort_unstable();
@@ -98,8 +98,6 @@ pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
     [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
 }
 
-/// Width and height of the pictures on the web page. `sahara render` also computes the scale of the heat view at this
-/// size.
 pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
 }
@@ -113,8 +111,7 @@ pub fn depth_picture(size: [u32; 2], depths: &[f32]) -> RgbImage {
     let seen = depths.iter().copied().filter(|t| t.is_finite());
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
 
-    // Reciprocals keep the contrast of near surfaces if a floor extends to the horizon. The farthest hit stays brighter
-    // than a miss.
+    // The constant 0.15 makes the farthest hit brighter than a miss.
     let near = near.max(far * 1e-3);
     let brightness = |t: f32| {
         let share = (near / t.max(near) - near / far) / (1.0 - near / far);
@@ -124,8 +121,8 @@ pub fn depth_picture(size: [u32; 2], depths: &[f32]) -> RgbImage {
     from_pixels(size, depths.iter().map(colour).collect())
 }
 
-/// A colour that is not black and is unique among primitives 0 to 2^24 - 2. Multiples of an odd constant modulo 2^24
-/// are all different.
+/// A unique colour, not black, for each `index` from 0 to 2^24 - 2. Multiplication by an odd constant is invertible
+/// modulo 2^24.
 pub fn identity(index: u32) -> [u8; 3] {
     let [_, red, green, blue] = ((index.wrapping_add(1)).wrapping_mul(0x9E_37_79) & 0xFF_FF_FF).to_be_bytes();
     [red, green, blue]
@@ -156,12 +153,12 @@ mod tests {
             let miss = if view == ViewKind::Shaded { [51, 64, 77] } else { [0; 3] };
             assert_eq!(colours(view, &tree).0, miss, "{view:?}");
         }
-        // The eye sees three sides with six triangles.
+        // The eye sees three sides of the cube, each with two triangles.
         assert_eq!(colours(ViewKind::Normal, &tree).1.len(), 3 + 1);
         assert_eq!(colours(ViewKind::Primitive, &tree).1.len(), 6 + 1);
         assert!(colours(ViewKind::Depth, &tree).1.contains(&[255; 3]));
 
-        // For every ray, brute force tests twelve triangles and enters one leaf: a cost of 13.
+        // The cost of brute force is twelve triangle tests and one step per ray.
         assert_eq!(costs(&scene, &all, [4, 4]).unwrap(), [13; 16]);
         assert_eq!(colours(ViewKind::Heat, &all).1, HashSet::from([colour_map::heat(13, 14)]));
     }

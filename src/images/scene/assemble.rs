@@ -12,9 +12,9 @@ use crate::names::suggestion;
 pub(super) struct Origin<'a> {
     /// The name of the scene file in messages.
     pub file: &'a str,
-    /// Paths in the file are relative to this folder. `None` for a built-in scene.
+    /// A `mesh` path in the file is relative to this folder. `None` for a built-in scene.
     pub folder: Option<&'a Path>,
-    /// The folder of downloaded meshes. With `None`, the scene uses only stand-in meshes.
+    /// The folder of downloaded meshes. With `None`, no object uses a downloaded mesh.
     pub real_meshes: Option<&'a Path>,
 }
 
@@ -25,11 +25,11 @@ impl Origin<'_> {
 }
 
 impl Scene {
-    /// Reads a scene file. `real_meshes` is the folder of downloaded meshes. With `None`, the scene uses only stand-in
-    /// meshes.
+    /// Reads a scene file. `real_meshes` is the folder of downloaded meshes. With `None`, no object uses a downloaded
+    /// mesh.
     ///
     /// # Errors
-    /// If the file cannot be read, a key or value is invalid, or a mesh is missing or cannot be loaded.
+    /// If the scene file or a mesh file cannot be read or is invalid.
     pub fn read(path: &Path, real_meshes: Option<&Path>) -> Result<Self, SceneError> {
         let text =
             std::fs::read_to_string(path).map_err(|cause| SceneError::Unreadable { file: path.into(), cause })?;
@@ -37,11 +37,11 @@ impl Scene {
         Self::from_text(&text, &path.escaped().to_string(), folder, real_meshes)
     }
 
-    /// Reads the text of a scene file. Error messages call the text `file`. Paths in the text are relative to `folder`.
-    /// Without a folder, paths are errors.
+    /// Reads the text of a scene file. `file` is the name of the text in error messages. A `mesh` path in the text is
+    /// relative to `folder`. Without `folder`, a `mesh` path is an error.
     ///
     /// # Errors
-    /// As [`read`](Self::read).
+    /// If the text or a mesh file is invalid, or a mesh file cannot be read.
     pub fn from_text(
         text: &str,
         file: &str,
@@ -94,10 +94,10 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
 
 #[derive(Default)]
 struct SceneBuilder {
-    /// The added objects, in world space, with unit normals.
+    /// The added objects, in world space.
     all: Model,
     stand_ins: Vec<String>,
-    /// Whether a real mesh replaces a stand-in.
+    /// Whether a downloaded mesh replaces the `mesh` of an object.
     replaced: bool,
 }
 
@@ -200,7 +200,7 @@ impl SceneBuilder {
     }
 
     fn paint(&mut self, object: &ObjectFile, model: &Model, key: &str, origin: &Origin) -> Result<(), SceneError> {
-        // The materials of the scene file come first. The parser has checked that each name exists.
+        // The materials of the scene file come first in `materials`. The parser rejects unknown material names.
         let number = |materials: &[Material], name: &str| {
             materials.iter().position(|m| m.name == name).expect("the file names its materials") as u32
         };
@@ -264,7 +264,7 @@ fn load_file(path: &Path, key: &str, origin: &Origin) -> Result<Model, SceneErro
     load(path).map_err(|cause| SceneError::Load { file: origin.file.into(), key: key.into(), cause })
 }
 
-/// Removes the triangles of these materials. All vertices and materials stay in the model.
+/// Removes the triangles whose material is in `names`. All vertices and materials stay in the model.
 fn without_materials(model: &mut Model, names: &[String]) {
     let dropped: Vec<bool> = model.materials.iter().map(|m| names.contains(&m.name)).collect();
     let of = |t: usize| model.material_of.get(t).map_or(0, |&m| m as usize);

@@ -26,10 +26,10 @@ pub enum CameraError {
 }
 
 impl Camera {
-    /// `vertical_fov` is the full vertical angle in degrees.
+    /// `vertical_fov` is the full vertical field of view in degrees.
     ///
     /// # Errors
-    /// If the arguments do not define a view: see [`CameraError`].
+    /// A [`CameraError`] if the arguments do not define a view.
     pub fn new(eye: Vec3, target: Vec3, up: Vec3, vertical_fov: f32) -> Result<Self, CameraError> {
         if !(eye.is_finite() && target.is_finite() && up.is_finite()) {
             return Err(CameraError::NotFinite);
@@ -74,7 +74,7 @@ impl Camera {
 
 /// A camera with an image size.
 ///
-/// Directions are computed in `f64` and rounded once. The rays have the same bits on every machine.
+/// Directions are computed in `f64` and rounded to `f32` once. Rays have the same bits on every machine.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     eye: Vec3,
@@ -82,16 +82,18 @@ pub struct View {
     right: DVec3,
     up: DVec3,
     half_size: DVec2,
-    /// Width of a pixel at distance 1 from the eye.
+    /// The width of a pixel in the image plane at distance 1 from the eye.
     pixel: f64,
 }
 
 impl View {
-    /// The offset from the top left corner of a pixel to its centre.
+    /// The offset from the top left corner of a pixel to the centre of the pixel.
     pub const CENTRE: Vec2 = Vec2::splat(0.5);
 
-    /// The ray through a point of pixel (`x`, `y`), with a direction of unit length. Pixel (0, 0) is at the top left.
-    /// `offset` (0, 0) is the top left corner of the pixel, and (1, 1) is the bottom right corner.
+    /// The ray through a point of pixel (`x`, `y`). The direction of the ray has unit length.
+    ///
+    /// Pixel (0, 0) is at the top left of the image. `offset` is (0, 0) at the top left corner of a pixel. `offset` is
+    /// (1, 1) at the bottom right corner of a pixel.
     pub fn ray(&self, x: u32, y: u32, offset: Vec2) -> Ray {
         let across = (f64::from(x) + f64::from(offset.x) - self.half_size.x) * self.pixel;
         let upward = (self.half_size.y - f64::from(y) - f64::from(offset.y)) * self.pixel;

@@ -8,7 +8,7 @@ use super::{CameraError, LoadError};
 use crate::escaped::Escaped as _;
 use crate::geometry::MeshError;
 
-/// Each message is one line with the file, the key, the problem and a remedy.
+/// Each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     #[error("{}: cannot read the scene ({cause}): check that it exists and its permissions", file.escaped())]

@@ -8,14 +8,14 @@ use super::SceneError;
 use crate::scene::Material;
 use crate::scene::meshes::Terrain;
 
-/// The contents of a scene file. [`super::Scene::read`] makes the scene.
+/// The contents of a scene file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     pub name: String,
     /// A note on the origin of the scene.
     pub source: Option<String>,
-    /// The expected number of triangles. This number is not checked if a real mesh replaces a generated mesh.
+    /// The expected number of triangles. It is not checked if a `real` file replaces a `mesh`.
     pub triangles: Option<usize>,
     /// Width and height of the image, 1 to 16384.
     #[serde(default = "default_size")]
@@ -29,8 +29,8 @@ pub struct SceneFile {
     /// See [`super::Scene::shadow_terminator_fix`].
     #[serde(default = "yes")]
     pub shadow_terminator_fix: bool,
-    /// Moves the origin of every ray, including camera rays, by this distance along the ray. The ray counts of the
-    /// source report depend on this offset. Without this key, only secondary rays move: see [`super::Offset`].
+    /// Moves the origin of every ray, including camera rays, by this distance along the ray. Without this
+    /// key, [`super::Offset::ErrorBounded`] applies.
     pub ray_offset: Option<f32>,
     pub camera: CameraFile,
     #[serde(default)]
@@ -47,7 +47,7 @@ pub struct CameraFile {
     pub target: [f32; 3],
     #[serde(default = "default_up")]
     pub up: [f32; 3],
-    /// The full vertical angle in degrees.
+    /// The full vertical field of view in degrees.
     pub vertical_fov: f32,
 }
 
@@ -63,7 +63,7 @@ pub struct LightFile {
     pub qat: f32,
 }
 
-/// See [`Material`]. Textures are ignored, with a note in the scene.
+/// See [`Material`]. Textures are ignored.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(non_snake_case, reason = "the keys have the names of MTL")]
@@ -95,15 +95,15 @@ impl MaterialFile {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectFile {
-    /// The name of a generator of [`super::meshes::GENERATORS`], or a path relative to the folder of the scene file.
+    /// A name in [`super::meshes::GENERATORS`], or a path relative to the folder of the scene file.
     pub mesh: Option<String>,
-    /// Generated ground, instead of a mesh.
+    /// Generated ground instead of a mesh.
     pub terrain: Option<Terrain>,
-    /// The material of the whole mesh. By default, the mesh keeps its own materials.
+    /// The material of the whole mesh.
     pub material: Option<String>,
-    /// Maps names of materials of the mesh to names of materials in the scene file.
+    /// Maps a material name in the mesh to a material name in the scene file.
     pub materials: Option<BTreeMap<String, String>>,
-    /// Rotation in degrees, scale and translation: see [`crate::geometry::Transform::new`].
+    /// Angles about x, y and z in degrees. See [`crate::geometry::Transform::new`].
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
@@ -111,27 +111,27 @@ pub struct ObjectFile {
     #[serde(default)]
     pub tra: [f32; 3],
     pub stands_in_for: Option<String>,
-    /// This mesh file replaces `mesh` if the file exists. Without `mesh`, the file must exist.
+    /// A mesh file that replaces `mesh` if the file exists. Without `mesh`, the file must exist.
     pub real: Option<RealMesh>,
 }
 
-/// A mesh file that is not part of the project.
+/// A mesh file that is not part of sahara.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RealMesh {
     /// The name of the file in the folder of downloaded meshes.
     pub file: String,
-    /// The address of the file, or the address of an archive if `unpack` is set.
+    /// The URL of the file. If `unpack` is set, the URL of an archive.
     pub url: String,
     pub unpack: Option<String>,
     pub licence: String,
     pub origin: String,
-    /// SHA-256 in hexadecimal. `sahara fetch` does not download a file without this hash.
+    /// The SHA-256 of the file in hexadecimal. If `sha256` is `None`, `sahara fetch` does not download the file.
     pub sha256: Option<String>,
     pub bytes: Option<u64>,
-    /// The number of triangles in the source report.
+    /// The number of triangles that the source report states for this mesh.
     pub reported_triangles: Option<usize>,
-    /// This placement replaces the placement in [`ObjectFile`].
+    /// `rot`, `sca` and `tra` replace the fields of the same names in [`ObjectFile`].
     #[serde(default)]
     pub rot: [f32; 3],
     #[serde(default = "ones")]
@@ -163,10 +163,10 @@ fn yes() -> bool {
 }
 
 impl SceneFile {
-    /// `file` is the name in error messages.
+    /// `file` is the file name for error messages.
     ///
     /// # Errors
-    /// If the text is not TOML, if a key is unknown, missing or of the wrong type, or if a value is invalid.
+    /// If the text is not a valid scene file.
     pub fn parse(text: &str, file: &str) -> Result<Self, SceneError> {
         let scene: Self = toml::from_str(text).map_err(|error| SceneError::Syntax {
             file: file.into(),
@@ -178,7 +178,6 @@ impl SceneFile {
     }
 
     fn check(&self) -> Result<(), (String, String)> {
-        // Tables and file names contain the name.
         let is_word = !self.name.trim().is_empty() && !self.name.contains(char::is_control);
         demand(is_word, "name", "give a name on one line without control characters")?;
         let in_size = self.size.iter().all(|n| (1..=16384).contains(n));

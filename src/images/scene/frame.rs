@@ -1,4 +1,4 @@
-//! Makes a scene around a mesh, with a camera and a light.
+//! Chooses a camera and a light for a mesh.
 
 use std::sync::Arc;
 
@@ -15,16 +15,15 @@ const INSIDE_FOV: f32 = 75.0;
 
 const TOWARDS_CAMERA: DVec3 = DVec3::new(0.5, 0.35, 1.0);
 
-/// The largest fraction of the image's width or height that the box of the mesh fills.
+/// The box of the mesh fills at most this fraction of the image's width and height.
 const FILLED: f64 = 0.95;
 
 impl Scene {
-    /// Makes a scene around `model`, with one light. The camera sees the whole box of the mesh, and y is up.
-    ///
-    /// The shadow terminator fix is off, because it depends on the unit of length.
+    /// Makes a scene from `model`, with a camera and one light. The camera sees the whole box of the mesh. The up
+    /// direction is y.
     ///
     /// # Errors
-    /// If the model is not a valid mesh, or if `f32` cannot represent the camera and the light.
+    /// If the model is not a valid mesh, or if `f32` cannot represent the camera or the light.
     pub fn framed(name: &str, model: Model) -> Result<Self, SceneError> {
         let mesh = Mesh::new(model.positions, model.triangles)
             .map_err(|cause| SceneError::Mesh { file: name.into(), cause })?;
@@ -66,7 +65,7 @@ impl Scene {
     /// The light of a [framed](Scene::framed) scene moves into the box.
     ///
     /// # Errors
-    /// If the mesh is empty or has no extent along this axis, or if `f32` cannot represent the camera.
+    /// If the mesh is empty or has no horizontal extent, or if `f32` cannot represent the camera.
     pub fn from_inside(mut self) -> Result<Self, CameraError> {
         let bounds = if self.mesh.is_empty() { return Err(CameraError::NoDirection) } else { self.mesh.bounds() };
         let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
@@ -95,7 +94,6 @@ fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let fits = |corner: DVec3| corner.dot(right).abs().max(corner.dot(up).abs()) / reach + corner.dot(towards);
     let sign = |i: u32| if i == 0 { -0.5 } else { 0.5 };
     let corners = (0..8).map(|i| (max - min) * DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4)));
-    // For a single point, use a distance in proportion to the coordinates.
     let distance = corners.map(fits).fold(f64::from(f32::MIN_POSITIVE), f64::max);
     let distance = if max == min { centre.abs().max_element().max(1.0) } else { distance };
 

@@ -1,4 +1,4 @@
-//! The hash of a scene. Results are comparable only between scenes with equal hashes.
+//! The hash of a scene.
 
 use std::io::{BufWriter, Write};
 
@@ -10,7 +10,7 @@ use super::{Offset, Scene};
 impl Scene {
     /// SHA-256, in hexadecimal, of everything that rays, hits or pictures depend on.
     pub fn hash(&self) -> String {
-        // Add every new field of `Scene` to these patterns. The compiler does not require this.
+        // Add every new field of `Scene` to one of these patterns.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
         let Self { recursion_limit, shadow_terminator_fix, offset, size, .. } = self;
         let Self { name: _, is_framed: _, stand_ins: _, notes: _, warnings: _, .. } = self;
@@ -61,7 +61,7 @@ impl Hash {
         self.words(floats.iter().map(|float| float.to_bits()));
     }
 
-    /// Hashes the length of a list, to distinguish two lists from their concatenation.
+    /// Adds the length of a list to the hash, to separate the list from the next list.
     fn count(&mut self, n: usize) {
         self.0.write_all(&(n as u64).to_le_bytes()).expect(SUMMED);
     }

@@ -8,9 +8,9 @@ pub struct Light {
     pub position: Vec3,
     /// Linear RGB.
     pub colour: Vec3,
-    /// `lat` in scene files.
+    /// The key `lat` in scene files.
     pub linear: f32,
-    /// `qat` in scene files.
+    /// The key `qat` in scene files.
     pub quadratic: f32,
 }
 

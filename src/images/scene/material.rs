@@ -6,7 +6,7 @@ use glam::Vec3;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     pub name: String,
-    /// `Ka`. The colour without any light is the product of `Ka` and `Kd`.
+    /// `Ka`: ambient factor, multiplied by `diffuse`.
     pub ambient: Vec3,
     /// `Kd`: Lambert reflection.
     pub diffuse: Vec3,

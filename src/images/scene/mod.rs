@@ -1,4 +1,4 @@
-//! Scenes: meshes, materials, lights, cameras, and the rays made from them.
+//! Scenes: meshes, materials, lights, cameras and rays.
 
 mod assemble;
 mod camera;

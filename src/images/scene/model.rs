@@ -6,27 +6,27 @@ use glam::Vec3;
 
 use super::Material;
 
-/// Triangles with normals and materials, in model space and not yet validated.
+/// Unvalidated triangles with normals and materials, in model space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     pub positions: Vec<Vec3>,
     pub triangles: Vec<[u32; 3]>,
-    /// Corner normals of any length. Empty if the model is flat-shaded.
+    /// Corner normals, not necessarily of unit length. Empty if the model is flat-shaded.
     pub normals: Vec<Vec3>,
-    /// Three normal indices per triangle, or empty if there are no normals. A flat triangle has [`Model::FLAT`] three
-    /// times.
+    /// Three indices into `normals` per triangle. May be empty if all triangles are flat-shaded. All three indices
+    /// of a flat-shaded triangle are [`Model::FLAT`].
     pub normal_indices: Vec<[u32; 3]>,
     pub materials: Vec<Material>,
-    /// One index into `materials` per triangle, or empty if all triangles have the first material.
+    /// One index into `materials` per triangle. May be empty if all triangles have the first material.
     pub material_of: Vec<u32>,
-    /// One sentence for each feature of the file that was ignored or replaced.
+    /// One sentence for each ignored or replaced feature of the file.
     pub notes: Vec<String>,
 }
 
 impl Model {
     pub const FLAT: u32 = u32::MAX;
 
-    /// A mirroring placement reverses the order of the vertices to keep the front side.
+    /// Reverses the vertices of a mirrored triangle to keep its front side.
     pub fn placed([a, b, c]: [u32; 3], is_mirrored: bool) -> [u32; 3] {
         if is_mirrored { [a, c, b] } else { [a, b, c] }
     }
@@ -44,7 +44,7 @@ impl Model {
         self.material_of.try_reserve_exact(triangles)
     }
 
-    /// Shading normalizes normals, so a normal without direction is invalid.
+    /// Makes a triangle flat-shaded if a normal of the triangle is missing or cannot be normalized.
     pub(super) fn flatten_invalid_normals(&mut self) {
         let Self { normals, normal_indices, notes, .. } = self;
         let is_valid = |&n: &u32| {

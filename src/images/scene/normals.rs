@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Model;
 
-/// Unit normals in world space: three per smooth triangle, none per flat triangle.
+/// Unit normals in world space: three per smooth-shaded triangle, none per flat-shaded triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornerNormals {
     normals: Vec<Vec3>,
@@ -14,7 +14,8 @@ pub struct CornerNormals {
 impl CornerNormals {
     pub const FLAT: [u32; 3] = [Model::FLAT; 3];
 
-    /// `indices` has three indices into `normals` per triangle. A triangle with a normal of length zero becomes flat.
+    /// `indices` has three indices into `normals` per triangle. A triangle with a normal of length zero becomes
+    /// flat-shaded.
     ///
     /// # Panics
     /// If an index is out of range, except in [`CornerNormals::FLAT`].

@@ -4,8 +4,7 @@ use earcut::Earcut;
 use glam::{DVec3, Vec3};
 use robust::{Coord, orient2d};
 
-/// Ear clipping takes quadratic time if a polygon crosses itself. The limit applies to the sum of corner pairs over all
-/// concave polygons of a file.
+/// This limit of `Splitter::pairs` bounds the time of ear clipping.
 const MOST_PAIRS: usize = 1 << 27;
 const SMALL: usize = 64;
 
@@ -14,10 +13,7 @@ const BENT: f64 = 0.01;
 
 type Point = [f64; 2];
 
-/// Splits polygons into triangles, and counts polygons that are not simple and flat.
-///
-/// Convex polygons become fans. Concave polygons of more than four corners are split by ear clipping. If a polygon
-/// crosses itself, the areas of the triangles do not add up to the polygon's area.
+/// Convex polygons become fans.
 ///
 /// # References
 /// G. H. Meisters, "Polygons have ears", 1975. J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast
@@ -83,7 +79,7 @@ impl Splitter {
     }
 }
 
-/// Twice the area of a polygon as a vector (Newell's method).
+/// Twice the vector area of a polygon, as in Newell's method.
 fn newell(corners: &[Vec3]) -> DVec3 {
     let first = corners[0].as_dvec3();
     let from_first = |i: usize| corners[i].as_dvec3() - first;
@@ -107,7 +103,8 @@ fn is_line(points: &[Point]) -> bool {
     points.iter().all(|&p| area([points[0], other, p]) == 0.0)
 }
 
-/// A counterclockwise polygon is convex if no corner turns right and all corners turn 360 degrees in total.
+/// The polygon must be counterclockwise. A convex polygon has no right turn. The left turns add up to
+/// 360 degrees.
 fn is_convex(points: &[Point]) -> bool {
     let n = points.len();
     let upward = |a: Point, b: Point| b[1] > a[1] || b[1] == a[1] && b[0] > a[0];
@@ -139,7 +136,7 @@ fn is_covered(points: &[Point], triangles: &[[usize; 3]]) -> bool {
     let fan = (2..points.len()).map(|i| area([points[0], points[i - 1], points[i]]));
     let (own, sizes) = fan.fold((0.0, 0.0), |(own, sizes), area| (own + area, sizes + area.abs()));
     let covered: f64 = triangles.iter().map(|triangle| area(triangle.map(|i| points[i])).abs()).sum();
-    // The right side bounds the rounding errors of the two sums.
+    // The right-hand side bounds the rounding errors of `covered` and `own`.
     (covered - own).abs() <= 2.0 * f64::EPSILON * points.len() as f64 * sizes
 }
 

@@ -21,14 +21,13 @@ pub struct Scene {
     pub background: Vec3,
     /// The highest level of mirror rays. Primary rays have level 0.
     pub recursion_limit: u32,
-    /// Whether shadow rays of smooth triangles start at `point + normal * area^0.05`. The source report's course avoids
-    /// dark facets near the shadow boundary in this way.
+    /// Whether the origins of shadow rays from smooth triangles move by `shading_normal * area^0.05`.
     pub shadow_terminator_fix: bool,
     pub offset: Offset,
     pub size: [u32; 2],
     /// Whether [`Scene::framed`] made the scene.
     pub is_framed: bool,
-    /// Names of the generated meshes that replace missing real meshes.
+    /// Names of the generated meshes that replace missing meshes.
     pub stand_ins: Vec<String>,
     /// Notes for readers of results, one sentence each.
     pub notes: Vec<String>,
@@ -38,10 +37,9 @@ pub struct Scene {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// The start of secondary rays. With [`Offset::Direction`], its position is `origin + t * direction`, as in the
-    /// source report's course.
+    /// The hit point, without [`Scene::offset`].
     pub point: SurfacePoint,
-    /// Interpolated unit normal. A flat triangle has its geometric normal.
+    /// Interpolated unit normal. A triangle without corner normals has the geometric normal.
     pub shading_normal: Vec3,
     /// Whether the corner normals differ.
     pub smooth: bool,
@@ -83,8 +81,8 @@ impl Scene {
         Surface { point, shading_normal, smooth }
     }
 
-    /// `t_max` is the distance from the unmoved point to the light. The ray may therefore hit an occluder slightly
-    /// beyond the light, as in the source report's course.
+    /// `t_max` is the distance from `surface.point` to the light. The ray may hit an occluder slightly
+    /// beyond the light.
     pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
         let mut start = surface.point;
         if surface.smooth && self.shadow_terminator_fix {

@@ -4,8 +4,8 @@ use glam::Vec3;
 
 use super::{Camera, Light, Scene, meshes};
 
-/// Segments per edge of the icosahedron, by level. A sphere with 1024 segments would exceed the memory of many
-/// machines.
+/// Segments per edge of the icosahedron, by level. With 1024 segments per edge, structures would exceed the
+/// memory of many machines.
 const STEPS: [u32; 11] = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 895];
 
 pub const FINEST: u32 = STEPS.len() as u32 - 1;
@@ -14,7 +14,7 @@ pub fn triangles(level: u32) -> usize {
     20 * (STEPS[level as usize] as usize).pow(2)
 }
 
-/// All levels have the camera and the light of the source report's sphere.
+/// All levels have the same camera and the same light.
 ///
 /// # Errors
 /// If `parameters` is not a level.

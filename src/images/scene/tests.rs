@@ -194,7 +194,7 @@ fn a_mirror_leaves_fronts_in_front() {
                 let front = (b - a).cross(c - a);
                 let corners = placed.normals.as_ref().and_then(|normals| normals.corners(t));
                 let is_in_front = |n: &Vec3| n.dot(front) >= 0.0;
-                // One or two corner normals may point behind the triangle, but not all three.
+                // At least one corner normal points to the front of the triangle.
                 assert!(corners.is_none_or(|corners| corners.iter().any(is_in_front)), "{mesh} {sca:?} {t}");
             }
         }

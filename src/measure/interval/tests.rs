@@ -1,17 +1,17 @@
-//! Simulates runs, and counts how often intervals contain the value that they should contain.
+//! Tests the coverage of the intervals with simulated runs.
 
 use super::*;
 use crate::measure::{AaNoise, RandomOrder};
 
 const EPOCHS: usize = 5;
 
-/// `placement` and `run` are standard deviations of ln time.
 #[derive(Clone, Copy, Debug)]
 struct Machine {
+    /// Standard deviation of ln(time) between epochs.
     placement: f64,
-    /// The effect of a run on a structure in one cell, the same in all epochs.
+    /// Standard deviation of ln(time) between runs.
     run: f64,
-    /// The maximum that an interruption adds to ln time.
+    /// The maximum increase of ln(time) by an interruption.
     tail: f64,
     epochs: usize,
     rounds: usize,
@@ -29,7 +29,7 @@ fn noise(random: &mut RandomOrder, tail: f64) -> f64 {
 }
 
 impl Machine {
-    /// ln times by structure, epoch and round.
+    /// Returns ln(time), indexed by structure, epoch and round.
     fn cell(&self, times: &[f64], random: &mut RandomOrder) -> Vec<Vec<Vec<f64>>> {
         let mut samples = vec![vec![]; times.len()];
         let run: Vec<f64> = times.iter().map(|_| self.run * random.normal()).collect();
@@ -78,7 +78,7 @@ fn coverage_of(pairs: u64, pair: impl Fn(&mut RandomOrder) -> (Estimate, f64)) -
     (0..pairs).filter(holds).count() as f64 * 100.0 / pairs as f64
 }
 
-/// The percentage of pairs of runs in which the second estimate lies within the first interval.
+/// Returns the percentage of pairs in which the interval of the first run contains the second estimate.
 fn held(pairs: u64, run: impl Fn(&mut RandomOrder) -> Rerun) -> f64 {
     coverage_of(pairs, |random| (run(random).plain(), run(random).plain().estimate))
 }
@@ -107,7 +107,7 @@ fn several_rounds_filter_interruptions_and_one_does_not() {
         held(PAIRS, |random| mean_of(&[machine.ratio([3.0, 1.0], random)], Variance::NONE))
     };
     as_promised(of(3, 0.1), "three rounds, interruptions of ten standard deviations");
-    // One sample in eight takes up to a third longer.
+    // Interruptions prolong one sample in eight by up to 35 %.
     let (one, five) = (of(1, 0.3), of(5, 0.3));
     assert!(one < 90.0 && five > one + 4.0, "{one:.1} % of one round, {five:.1} % of five");
 }
@@ -120,7 +120,7 @@ fn changes_lie_within_their_intervals() {
         (Rerun::change(&old, &new, [Variance::NONE; 2]).unwrap().plain(), libm::log(1.1))
     });
     as_promised(changes, "changes");
-    // A confidence interval of the mean over the epochs is too narrow for the mean of another run.
+    // A confidence interval is too narrow to predict the mean of another run.
     let confidence = held(PAIRS, |random| {
         let of = mean_of(&[Machine::default().ratio([3.0, 1.0], random)], Variance::NONE);
         Rerun { variance: of.variance.map(|variance| variance.times(std::f64::consts::FRAC_1_SQRT_2)), ..of }
@@ -128,7 +128,7 @@ fn changes_lie_within_their_intervals() {
     assert!(confidence < 90.0, "{confidence:.1} %");
 }
 
-/// The A/A noise comes from a second build of the first structure.
+/// Simulates two structures and a second build of the first structure.
 fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<Vec<Vec<f64>>>, AaNoise) {
     let [mut ratios, mut twins] = [vec![], vec![]];
     for _ in 0..cells {
@@ -141,8 +141,6 @@ fn with_twins(machine: Machine, cells: usize, random: &mut RandomOrder) -> (Vec<
 
 #[test]
 fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
-    // The standard error of a log ratio is about 0.01 here. The run effects 0.007 and 0.02 add standard deviations of
-    // about 0.01 and 0.03.
     for (run, cells) in [(0.0, 1), (0.007, 1), (0.0, 4), (0.0, 8), (0.007, 8), (0.02, 12)] {
         let machine = Machine { run, ..Machine::default() };
         let share = |noise: &dyn Fn(&AaNoise) -> Variance, all: bool| {
@@ -153,7 +151,7 @@ fn effects_of_whole_runs_are_covered_with_the_aa_noise_and_not_without() {
         };
         let of_one = share(&AaNoise::of_ratio, false);
         if (run, cells) == (0.007, 1) {
-            // A single A/A ratio is not enough to estimate the effects of runs.
+            // One A/A ratio estimates the A/A noise only roughly.
             assert!((91.0..=97.0).contains(&of_one), "{of_one:.1} %");
             continue;
         }
@@ -190,7 +188,7 @@ fn half_widths_are_those_of_students_t() {
 
 #[test]
 fn cells_of_one_epoch_share_its_placement() {
-    // Both cells vary in the same way from epoch to epoch, so their mean is as uncertain as each cell.
+    // The two cells vary equally between epochs, so the mean of the cells varies as much as one cell.
     let cell = |by: f64| -> Vec<Vec<f64>> { (0..EPOCHS).map(|e| vec![by + 0.01 * e as f64; 3]).collect() };
     let one = mean_of(&[cell(0.0)], Variance::NONE).ratio();
     let two = mean_of(&[cell(0.0), cell(1.0)], Variance::NONE).ratio();

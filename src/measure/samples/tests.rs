@@ -107,7 +107,7 @@ fn only_the_pass_is_timed_in_rounds_of_changing_order() {
 
 #[test]
 fn a_case_with_changing_results_is_not_steady_and_other_cases_continue() {
-    // On a subset, two checksum passes precede the samples. The second sample is then pass 4.
+    // If `most_rays` is 16, two checksum passes precede the samples. Pass 4 is then the second sample.
     for (runs, most_rays, fickle_at) in [(5, usize::MAX, 2), (5, 16, 4), (1, 16, 2)] {
         let bench = Bench::default();
         let fickle = Mock { fickle_at, ..bench.mock('a', 10, 64) };
@@ -148,7 +148,7 @@ fn another_epoch_has_the_checksum_of_the_first_unless_its_results_differ() {
 #[test]
 fn a_case_of_unknown_cost_takes_as_many_rays_as_its_clock_says_that_it_can() {
     let bench = Bench::default();
-    // 65,536 rays of 100 ns take 15.6 ms, with lead-ins and warm-up.
+    // For 65,536 rays at 100 ns per ray, `level_by_clock` expects 15.6 ms.
     let cases = [
         (100, 0, 16_000_000, 65_536),
         (100, 0, 15_000_000, 16_384),

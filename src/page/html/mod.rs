@@ -12,7 +12,7 @@ use crate::report::{Art, Block, Cell, Colours, Figure, Overlay, Picture, Table, 
 
 const NARROW: f64 = 360.0;
 
-/// All text is escaped, except charts, style sheet and scripts, which sahara makes itself.
+/// The template escapes everything except charts, the style sheet and scripts.
 pub fn page(document: &Document) -> String {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
@@ -33,7 +33,7 @@ pub fn page(document: &Document) -> String {
     page.expect("a test renders the template with all kinds of blocks")
 }
 
-/// `<` is escaped, so no text can end the script element.
+/// `<` is escaped, so no text in `data` can end the enclosing script element.
 fn in_script(data: &impl Serialize) -> String {
     serde_json::to_string(data).expect("data have text keys").replace('<', "\\u003c")
 }
@@ -47,7 +47,7 @@ fn sheet() -> String {
          :root[data-theme=\"dark\"] {{ color-scheme: dark; {dark} }}\n"
     );
     sheet += include_str!("page.css");
-    // Charts contain the light colours, which these rules replace.
+    // These rules replace the light-mode colours of charts with the colours of the current mode.
     for role in roles() {
         let (name, light) = (role.name, hex(role.light));
         sheet += &format!(".chart [fill=\"{light}\"] {{ fill: var(--{name}); }}\n");
@@ -105,7 +105,7 @@ fn table(table: &Table) -> Value {
 
 fn figure(figure: &Figure) -> Value {
     let chart = figure.chart();
-    // The labels of a scatter plot need the full width, so the plot scrolls on narrow screens.
+    // The labels of a scatter plot need the full width.
     let shrinks = |chart: &&Chart| !matches!(chart, Chart::Scatter(_));
     context! {
         id => &figure.id,
@@ -140,7 +140,7 @@ fn picture(picture: &Picture) -> Value {
     }
 }
 
-/// The drawing adapts to the available width, and screen readers skip it.
+/// The drawing adapts to the available width. Screen readers skip the drawing.
 fn inline(svg: &str) -> String {
     let svg = svg.trim_start();
     let end = svg.find('>').map_or(0, |end| end + 1);

@@ -1,4 +1,4 @@
-//! The hits and the work of all structures on the camera rays of one scene.
+//! Traces the camera rays of one scene with several structures.
 
 use image::RgbImage;
 
@@ -12,7 +12,6 @@ use crate::report::words::{each_once, scene_name};
 use crate::request::{BRUTE_FORCE, REPORT_TREE, SAH_TREE};
 use crate::study::measure::guarded;
 
-/// Brute force is left out, because its cost would darken the heat maps of all structures.
 pub struct CameraRays<'a> {
     pub loaded: &'a LoadedScene,
     pub name: String,
@@ -20,15 +19,15 @@ pub struct CameraRays<'a> {
     pub structures: Vec<StructureWork>,
 }
 
-/// The pixels are ordered row by row.
 pub struct StructureWork {
     pub label: String,
     pub observed: Observed,
+    /// One element per pixel, row by row.
     pub work: Vec<Work>,
 }
 
 impl<'a> CameraRays<'a> {
-    /// Leaves out structures that cannot be built, panic or decline one of the rays.
+    /// Leaves out each structure that cannot be built, panics or declines a ray.
     pub fn new(loaded: &'a LoadedScene, runs: &Runs, registry: &Registry) -> Self {
         let scene = &loaded.scene;
         let exact = ExactPicture::new(scene, coarse_size(scene));

@@ -1,4 +1,4 @@
-//! Pictures of wrong hits, pixel by pixel, judged by exact arithmetic.
+//! Pictures of wrong hits.
 
 use super::camera_rays::{CameraRays, StructureWork};
 use super::inspect::most_rays;
@@ -8,7 +8,7 @@ use crate::report::number::{count, plural};
 use crate::report::words::listed;
 use crate::report::{Colours, Table};
 
-/// Returns a sentence if all hits are correct, and `None` without structures.
+/// If all hits are correct, the result is `Some(Err(sentence))`. If `camera` has no structures, the result is `None`.
 pub fn maps(camera: &CameraRays) -> Option<Result<Maps, String>> {
     let maps: Vec<(&StructureWork, ErrorMap)> = camera.structures.iter().map(|s| (s, camera.errors(s))).collect();
     let (wrong, right): (Vec<_>, Vec<_>) = maps.into_iter().partition(|(_, map)| map.errors().next().is_some());
@@ -47,7 +47,6 @@ pub fn maps(camera: &CameraRays) -> Option<Result<Maps, String>> {
     }))
 }
 
-/// Returns the selected pixels and a sentence on the selection.
 fn pixels(wrong: &[(&StructureWork, ErrorMap)], most: usize) -> (Vec<usize>, String) {
     let mut pixels: Vec<usize> = wrong.iter().flat_map(|(_, map)| map.errors()).collect();
     pixels.sort_unstable();

@@ -1,4 +1,4 @@
-//! Heat maps: the cost of every structure per pixel.
+//! Heat maps: the cost per pixel of each structure.
 
 use super::camera_rays::{CameraRays, StructureWork};
 use super::inspect::most_rays;
@@ -44,7 +44,6 @@ pub fn maps(camera: &CameraRays) -> Option<Maps> {
     })
 }
 
-/// Returns the selected pixels and a sentence on the selection.
 fn grid(camera: &CameraRays) -> (Vec<usize>, String) {
     let [width, height] = camera.exact.size.map(|side| side as usize);
     let of = |stride: usize| {
@@ -73,7 +72,7 @@ fn ramp(scale: u64) -> Colours {
     }
 }
 
-/// The rounding to steps of the scale is invisible and makes the file smaller.
+/// Rounds `cost` to one of the logarithmic steps from 0 to `scale`. This rounding reduces the size of the PNG data.
 fn stepped(cost: u64, scale: u64) -> u64 {
     const STEPS: f64 = 48.0;
     let unit = libm::log1p(scale as f64) / STEPS;

@@ -1,4 +1,4 @@
-//! The data of the pixel inspector, which shows the rays of some pixels.
+//! The data of the pixel inspector. The inspector shows the ray of a selected pixel.
 
 use serde_json::{Value, json};
 
@@ -8,18 +8,16 @@ use crate::render::{Work, error_name};
 use crate::report::words::each_once;
 use crate::scene::offset::barycentrics;
 
-/// Each value takes about ten bytes on the page.
 const NUMBERS: usize = 75_000;
 
-/// Values per ray that do not depend on a structure.
 const OF_RAY: usize = 8;
 
+/// Returns the maximum number of rays. This limit keeps the page small.
 pub fn most_rays(structures: usize) -> usize {
     NUMBERS / (structures + OF_RAY)
 }
 
-/// `pixels` has ascending indices, counted row by row from the top left. Each quantity is one array over all pixels to
-/// keep the data small.
+/// `pixels` is in ascending order. Pixels are numbered row by row from the top left.
 pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     let options: Vec<String> = camera.structures.iter().map(|s| format!("-s {}", s.label)).collect();
     let answer = |structure: &StructureWork, pixel: usize| {
@@ -51,7 +49,7 @@ pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     json!({
         "size": camera.exact.size,
         "which": which,
-        // With the text of a ray appended, this command traces the ray again with all structures.
+        // The page appends the text of the selected ray to this command.
         "command": format!("sahara validate {} {} --ray", camera.loaded.words(), options.join(" ")),
         "pixels": pixels,
         "rays": pixels.iter().map(|&pixel| camera.exact.rays[pixel].to_string()).collect::<Vec<_>>(),
@@ -61,7 +59,7 @@ pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     })
 }
 
-/// Some trees have no separate leaf nodes and test triangles without entering a leaf.
+/// Returns `false` if the structure tests triangles without entering any leaf.
 fn sees_leaves(structure: &StructureWork) -> bool {
     let any = |number: fn(&Work) -> u64| structure.work.iter().any(|work| number(work) > 0);
     structure.observed.steps && (any(|work| work.counts.leaves) || !any(|work| work.counts.tests))
@@ -76,11 +74,11 @@ fn answer(camera: &CameraRays, pixel: usize, hit: Option<Hit>, wrong: &str) -> V
     answer_of(hit, wrong)
 }
 
-/// `[t, triangle, u, v]`, or `[]` for a miss, followed by `wrong` if not empty. `u` and `v` are the barycentric
-/// coordinates of the second and third corner.
+/// The array for a hit is `[t, triangle, u, v]`. The array for a miss is `[]`. A non-empty `wrong` is appended to the
+/// array. `u` and `v` are the barycentric coordinates of the second and third corner.
 fn answer_of(hit: Option<(f32, u32, [f64; 2])>, wrong: &str) -> Value {
     let mut fields = hit.map_or(vec![], |(t, triangle, weights)| {
-        // The shortest digits that parse to the same `t`.
+        // `f64::from(t)` would have more digits in the JSON text.
         let t: f64 = t.to_string().parse().expect("a number");
         let [u, v] = weights.map(|weight| libm::round(weight * 1e9) / 1e9);
         vec![json!(t), json!(triangle), json!(u), json!(v)]

@@ -1,4 +1,4 @@
-//! A figure with one picture per structure and a pixel inspector.
+//! A figure with a pixel inspector and one picture per structure.
 
 use super::camera_rays::CameraRays;
 use super::inspect::inspector;
@@ -6,7 +6,7 @@ use crate::report::words::slug;
 use crate::report::{Art, Block, Colours, Figure, Overlay, Picture, Table};
 
 pub struct Maps {
-    /// The value of `--view` in the printed `sahara render` command. Other options may follow the value.
+    /// The text after `--view` in the `sahara render` command, such as `heat --hottest 9`.
     pub view: String,
     pub caption: String,
     pub pictures: Vec<Picture>,
@@ -19,7 +19,7 @@ pub struct Maps {
 }
 
 impl Maps {
-    /// Returns the figure and the command that draws one of its pictures.
+    /// Returns the figure, and a command that draws one picture of the figure.
     pub fn figure(self, kind: &str, camera: &CameraRays) -> (Block, String) {
         let Self { view, caption, pictures, colours, data, pixels, which } = self;
         let inspector = inspector(camera, &pixels, &which);

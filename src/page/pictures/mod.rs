@@ -18,15 +18,15 @@ use crate::request::is_large;
 use camera_rays::CameraRays;
 use scenes::LoadedScene;
 
-/// The maximum number of scenes with heat maps and error maps. The maps of a scene rebuild all structures.
+/// The maximum number of scenes with heat maps and error maps.
 const LARGEST: usize = 3;
 
 struct Part {
     id: &'static str,
     title: &'static str,
-    /// The name of the pictures in a note that they are missing.
+    /// The name that `Block::missing` receives.
     pictures: &'static str,
-    /// Text before the pictures; unused in `SCENES`.
+    /// The text before the pictures.
     introduction: &'static str,
 }
 
@@ -64,7 +64,7 @@ impl Part {
 
 pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) -> Vec<Section> {
     let (mut loaded, mut lost): (Vec<LoadedScene>, Vec<String>) = (vec![], vec![]);
-    // Skip generated scenes: all scenes of a generator look the same.
+    // Generated scenes get no pictures.
     let is_generated = |word: &OsStr| {
         let parts = word.to_str().and_then(|word| word.split_once(':'));
         parts.is_some_and(|(name, _)| registry.has_generator(name))

@@ -20,7 +20,7 @@ pub struct LoadedScene {
 }
 
 impl LoadedScene {
-    /// The scene and its view as arguments for a shell.
+    /// The shell-quoted arguments that select the scene and the view.
     pub fn words(&self) -> String {
         let view = self.request.view.words();
         [quoted(&self.request.word), view].into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
@@ -67,7 +67,7 @@ fn caption(loaded: &[LoadedScene]) -> String {
     )
 }
 
-/// `lost` names the scenes that cannot be loaded or drawn.
+/// `lost` contains the names of the scenes that cannot be loaded or drawn.
 pub fn blocks(pictures: Vec<Picture>, loaded: &[LoadedScene], lost: &[String]) -> (Vec<Block>, String) {
     let (mut blocks, mut command) = (vec![], String::new());
     if !pictures.is_empty() {

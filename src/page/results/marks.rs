@@ -1,4 +1,4 @@
-//! Fills marked places in Markdown: the text between `<!-- sahara: KEY -->` and `<!-- / -->`.
+//! Fills marked places in Markdown. A place is the text between the marks `<!-- sahara: KEY -->` and `<!-- / -->`.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ const CLOSE: &str = "<!-- / -->";
 
 const WIDTH: usize = 120;
 
-/// The key of each place, and the byte range of the text between its marks.
+/// Returns the key and the byte range of each place. The range excludes the marks.
 fn places(text: &str) -> anyhow::Result<Vec<(&str, Range<usize>)>> {
     let (mut places, mut at) = (vec![], 0);
     while let Some(open) = text[at..].find(OPEN) {
@@ -29,15 +29,15 @@ fn places(text: &str) -> anyhow::Result<Vec<(&str, Range<usize>)>> {
     Ok(places)
 }
 
-/// The key and the text of each place. Runs of white space in the text become single spaces.
+/// Returns the key and the text of each place. Single spaces separate the words of the text.
 pub fn marked(text: &str) -> anyhow::Result<Vec<(String, String)>> {
     let plain = |place: Range<usize>| text[place].split_whitespace().collect::<Vec<_>>().join(" ");
     Ok(places(text)?.into_iter().map(|(key, place)| (key.to_owned(), plain(place))).collect())
 }
 
-/// Writes `of(key)` into each place, or keeps the text if `of(key)` is `None`.
+/// Replaces the text of each place with `of(key)`. If `of(key)` is `None`, the text is not changed.
 ///
-/// A paragraph is wrapped again if a mark is inside one of its lines.
+/// If text precedes the first opening mark of a line, the paragraph is wrapped again.
 pub fn fill(text: &str, of: impl Fn(&str) -> Option<String>) -> anyhow::Result<String> {
     let (mut filled, mut at) = (String::new(), 0);
     for (key, place) in places(text)? {
@@ -88,8 +88,9 @@ fn flush(paragraph: &mut Vec<&str>, out: &mut String) {
     *out += &format!("{line}\n");
 }
 
-/// Splits a text where a line may break: outside comments and code spans. A comment stays with the word before it.
-/// Otherwise a line could begin with a comment, and Markdown does not format such a line.
+/// Splits a text where a line may break. Comments and code spans are not split.
+///
+/// Markdown does not format a line that begins with a comment. A comment therefore stays with the preceding word.
 fn words(text: &str) -> Vec<String> {
     let (mut words, mut word, mut is_code): (Vec<String>, String, bool) = (vec![], String::new(), false);
     for piece in text.split_whitespace() {

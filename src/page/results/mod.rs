@@ -1,7 +1,7 @@
 //! `report --results`: a paper, a data file, and the generated texts in README.
 //!
-//! The data file contains all findings, and digests of the paper, its figures and its tables. A test fails if a file
-//! or README does not match the data file.
+//! The data file contains digests of the paper, the figures and the tables. A test compares README, the paper, the
+//! figures and the tables with the data file.
 
 mod marks;
 mod paper;
@@ -29,10 +29,10 @@ pub const COMMAND: &str = "sahara report RUN.. --results";
 pub const PAPER: &str = "RESULTS.md";
 pub const DATA: &str = "results.json";
 pub const FIGURES: &str = "figures";
-/// The folder of the long tables, as CSV files.
+/// The folder with the CSV files of the long tables.
 pub const TABLES: &str = "results";
 
-/// Names and bytes of files.
+/// Each element is the name and the content of a file.
 pub type Files = Vec<(String, Vec<u8>)>;
 
 pub struct Results {
@@ -47,13 +47,13 @@ pub struct ResultsData {
     pub schema: u32,
     pub made_by: String,
     pub run: RunFacts,
-    /// The keys are `GROUP.FINDING`, such as `run.machine`. A group is a study, `answer`, `claims` or `run`.
+    /// A key is `GROUP.FINDING`, such as `run.machine`. A group is `answer`, `claims`, `run` or the name of a study.
     pub statements: BTreeMap<String, Statement>,
-    /// SHA-256 digests of the paper, figures and tables, by path relative to the data file.
+    /// SHA-256 digests of the paper, figures and tables. A key is a path relative to the data file.
     pub files: BTreeMap<String, String>,
 }
 
-/// A finding. `text` is empty if the finding is only a number.
+/// A finding. If the finding has no sentence, `text` is empty.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statement {
     pub text: String,
@@ -71,7 +71,7 @@ impl Results {
         for figure in document.figures() {
             let path = paper::path(&figure.id);
             let Some(chart) = figure.chart().filter(|_| paper.contains(&path)) else { continue };
-            // The answer may show the figure of a study. Write this figure only once.
+            // The chart of the answer may equal the chart of a study. Equal charts are written only once.
             let bytes = chart.svg(WIDTH).into_bytes();
             match figures.iter().find(|(_, known)| *known == bytes) {
                 Some((known, _)) => paper = paper.replace(&path, &format!("{FIGURES}/{known}")),
@@ -86,7 +86,7 @@ impl Results {
         Ok(Self { data, paper, figures, tables })
     }
 
-    /// Fills in README. The data file also receives a statement for each key that is not measured.
+    /// Fills the marked places of `readme`. A missing statement of a study becomes `Not measured in this run`.
     pub fn fill(&mut self, readme: &str, studies: &Studies) -> anyhow::Result<String> {
         for (key, _) in marked(readme).context("README.md")? {
             if self.data.statements.contains_key(&key) {
@@ -133,12 +133,12 @@ pub struct RunFacts {
     pub commit: String,
     pub cpu: String,
     pub simd: String,
-    /// The largest number of threads of any study.
+    /// The maximum thread count over all studies.
     pub threads: usize,
     pub rustc: String,
     pub target: String,
     pub obvhs: String,
-    /// Days of the first and of the last measurement, in UTC.
+    /// The earliest and the latest day of the measurements, in UTC.
     pub days: [String; 2],
     pub commands: Vec<String>,
 }
@@ -187,7 +187,7 @@ impl RunFacts {
     }
 }
 
-/// Removes the folders of this machine from a command.
+/// Shortens each absolute path in a command to the file name.
 fn portable(command: &str) -> String {
     let name = |(i, word): (usize, &str)| match word.rsplit('/').next() {
         _ if i == 0 => "sahara".to_owned(),

@@ -15,11 +15,13 @@ pub const ANSWER: &str = "answer.svg";
 /// The maximum number of figures per study.
 const FIGURES_SHOWN: usize = 2;
 
-/// Tables with more rows become CSV files. Exceptions are the titles that begin with a string in `WHOLE`.
+/// A table with more than `LONG` rows becomes a CSV file.
 const LONG: usize = 8;
+
+/// A table with one of these title prefixes never becomes a CSV file.
 const WHOLE: [&str; 2] = [CLAIMS, "Speed relative"];
 
-/// The beginning of the title of the claims table. The paper omits this title, because the columns explain the table.
+/// The first word of the title of the claims table.
 const CLAIMS: &str = "Claims";
 
 pub fn path(id: &str) -> String {
@@ -61,7 +63,6 @@ fn answer(document: &Document) -> String {
     if !answer.banner.is_empty() {
         text += &format!("> **{}**\n\n", prose(&answer.banner));
     }
-    // The last section of the paper explains the other verdicts.
     let reason = if answer.verdict == "Yes" { ": the whole intervals of all three speedups lie above 2" } else { "" };
     text += &format!("**{}** {}{reason}.\n\n", prose(&document.title), prose(&answer.verdict));
     text += &list(answer.sentences.iter().map(String::as_str));
@@ -96,7 +97,6 @@ fn results(document: &Document, runs: &Runs) -> (String, Files) {
             _ => None,
         };
         let shown: Vec<Block> = own.blocks.iter().filter_map(&mut shown).collect();
-        // The command is omitted: another section lists all commands.
         text += &format!("## {}\n\n", escaped(own.title));
         let is_new = |sentence: &&str| !document.answer.sentences.iter().any(|own| own == sentence);
         text += &list(found.into_iter().filter(is_new));

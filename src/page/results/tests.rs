@@ -1,4 +1,4 @@
-//! Checks that the paper, README and the data file agree, and contain only measured numbers.
+//! Checks the paper, README and the data file against each other.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -124,7 +124,7 @@ fn results_need_one_commit_and_state_the_threads() {
     }
 }
 
-/// The text without code, marked places and targets of links.
+/// Removes code, marked places and link targets from `text`.
 fn unmarked(text: &str) -> String {
     let filled = fill(text, |_| Some(String::new())).unwrap();
     let prose: Vec<&str> = filled.split("```").step_by(2).collect();

@@ -1,4 +1,4 @@
-//! Answers the open question of the source report from the findings of the studies.
+//! Uses the findings of the studies to answer the open question of the source report.
 
 use crate::measure::Estimate;
 use crate::page::document::{Answer, Headline};
@@ -15,7 +15,7 @@ const QUESTION: &str = "Would a SAH tree have been much faster on the hard scene
 /// The names of the hard scenes in the keys of findings.
 const SCENES: [&str; 3] = ["dragon", "lucy", "sponza"];
 
-/// A tree is called much faster if the interval of its speedup lies above this ratio.
+/// If the interval of a speedup lies above this ratio, the tree counts as "much faster".
 const MUCH: f64 = 2.0;
 
 /// The study that measures the SAH tree's speedup on the hard scenes.
@@ -89,7 +89,7 @@ fn headline(label: &str, ratio: Estimate) -> Headline {
 }
 
 fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
-    // Several scenes are judged together, so their intervals are widened. The mean is a single value.
+    // `ratio_among` widens an interval because several scenes are judged together.
     let all = |is: &dyn Fn(Estimate) -> bool| hard.iter().all(|own| is(own.ratio.ratio_among(hard.len())));
     let either = |is: &dyn Fn(Estimate) -> bool| all(is) || mean.is_some_and(is);
     let verdict = match () {
@@ -107,7 +107,7 @@ fn verdict(hard: &[Hard], mean: Option<Estimate>) -> String {
     format!("{verdict}, on {}", listed(&titles))
 }
 
-/// The speedup of each scene, divided into factors if `attribution` measured all these scenes.
+/// Returns the chart of `attribution` if this chart contains all scenes of `hard`.
 fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     let mut figures = runs.of(ATTRIBUTION).into_iter().flat_map(|run| run.report.figures());
     if let Some(Chart::Bars(bars)) = figures.find(|figure| figure.id == ATTRIBUTION).and_then(Figure::chart)
@@ -119,7 +119,7 @@ fn chart(runs: &Runs, hard: &[Hard]) -> Bars {
     Bars::of_products("speedup over the report's tree", vec!["SAH tree".into()], hard.iter().map(bar))
 }
 
-/// The answer for runs without hard scenes: the fastest structure of `compare`, or `Not measured`.
+/// The verdict is the fastest structure of `compare`, or `Not measured`.
 fn answer_without_hard_scenes(runs: &Runs) -> (String, Answer) {
     let mut answer = Answer { banner: banner(runs), verdict: "Not measured".into(), ..Answer::default() };
     let mut title = QUESTION.to_owned();

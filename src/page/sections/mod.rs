@@ -25,7 +25,6 @@ pub fn document(runs: &Runs, studies: &Studies, pictures: Vec<Section>) -> Docum
 
 fn section(run: &StudyRun) -> Section {
     let StudyRun { study, others, report, .. } = run;
-    // Other parts of the page use the findings without a sentence.
     let found = report.findings.iter().filter(|own| !own.sentence.is_empty());
     let mut blocks: Vec<Block> = found.map(|finding| Block::Text(finding.sentence.clone())).collect();
     blocks.extend(report.verdict_table().map(Block::Table));
@@ -36,7 +35,7 @@ fn section(run: &StudyRun) -> Section {
     Section { id: study.name, title: study.question, command: run.commands().join("\n"), blocks }
 }
 
-/// Makes the ids of figures unique, because scenes with similar names lead to equal ids.
+/// Makes figure ids unique. Scenes with similar names can cause equal figure ids.
 fn name_apart(blocks: &mut [Block], known: &mut Vec<String>) {
     for block in blocks {
         match block {

@@ -1,4 +1,4 @@
-//! Studies, runs and folders that the tests of the page share.
+//! Studies, runs and folders for the tests of the page.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -168,7 +168,7 @@ pub fn refused(path: PathBuf) -> RunError {
     Runs::read(&[path], &STUDIES).err().expect("it cannot be read")
 }
 
-/// A page with all types of blocks and figures.
+/// A page with each variant of `Art`, `Chart` and `Colours`.
 pub fn whole(scene: &str) -> (Document, Runs<'static>) {
     let runs = runs(&[("compare", &[scene]), ("attribution", &[scene]), ("replicate", &[scene])]);
     let picture = |name: &str| Picture {

@@ -10,17 +10,16 @@ pub const WIDTH: f64 = 900.0;
 pub enum Chart {
     Bars(Bars),
     Curves(Curves),
-    /// Always 800 units wide, to leave space for labels between the points.
     Scatter(Scatter),
 }
 
-/// Groups of bars on one logarithmic axis. Every bar starts at 1.
+/// Groups of bars along a logarithmic axis. Every bar starts at 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bars {
     pub x_title: String,
-    /// Names of the bars, equal in all groups. The name determines the colour.
+    /// Names of the bars in every group.
     pub labels: Vec<String>,
-    /// Names of the factors of the bars; empty if the bars have no factors.
+    /// Names of the factors of each [`Bar::Product`].
     pub parts: Vec<String>,
     pub groups: Vec<BarGroup>,
 }
@@ -32,13 +31,13 @@ pub struct BarGroup {
     pub bars: Vec<Bar>,
 }
 
-/// All numbers are positive.
+/// All numbers of a bar are positive.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bar {
     Of(Estimate),
-    /// One factor for each of [`Bars::parts`], and the product.
+    /// One factor for each name in [`Bars::parts`], and the product.
     Product(Vec<f64>, Estimate),
-    /// The reason why the bar is missing; may be empty.
+    /// The reason why the bar is missing. The reason may be empty.
     Missing(String),
 }
 
@@ -59,7 +58,7 @@ impl Bars {
     }
 }
 
-/// Lines through points on two logarithmic axes.
+/// A line plot with two logarithmic axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     pub x_title: String,
@@ -69,15 +68,15 @@ pub struct Curves {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The label determines the colour.
+    /// The colour of the line depends on the label.
     pub label: String,
     /// The text after the label in the legend.
     pub note: String,
-    /// Points from left to right. Both coordinates are positive.
+    /// Points (x, y) with positive coordinates, sorted by x.
     pub points: Vec<(f64, f64)>,
 }
 
-/// Points on two logarithmic axes.
+/// A scatter plot with two logarithmic axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scatter {
     pub x_title: String,
@@ -95,11 +94,11 @@ pub struct Point {
     /// Whether the point is on the Pareto front.
     pub is_front: bool,
     pub label: String,
-    /// The group determines the colour.
+    /// The colour of the point depends on the group.
     pub group: String,
 }
 
-/// The maximum number of points that are all labelled. With more points, only the Pareto front is labelled.
+/// If a scatter plot has more than `LABELLED` points, only the points on the Pareto front have labels.
 pub const LABELLED: usize = 20;
 
 impl Scatter {

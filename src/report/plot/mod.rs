@@ -1,4 +1,4 @@
-//! Charts as data: bars, curves and scatter plots. The feature `page` adds their drawings as SVG.
+//! Charts as data: bars, curves and scatter plots. The feature `page` adds SVG drawings of charts.
 
 mod chart;
 #[cfg(feature = "page")]

@@ -7,7 +7,7 @@ use crate::study::epoch::{Rays, Structure};
 use crate::study::{Case, Dataset, Epoch};
 use crate::validate::ErrorCounts;
 
-/// All structures with a time on one workload of one scene.
+/// The judged structures on one workload of one scene.
 pub struct JudgedRays<'a> {
     pub case: &'a Case,
     pub epoch: &'a Epoch,
@@ -22,11 +22,11 @@ pub struct Judged<'a> {
     pub errors: &'a ErrorCounts,
     /// Median of the samples.
     pub ns_per_ray: f64,
-    /// Share of the rays with a wrong result: missed hit, false hit or wrong depth.
+    /// Share of wrong results (missed hits, false hits, wrong depths).
     pub error: f64,
-    /// Upper bound of the true share, with 95 % confidence.
+    /// Upper bound of the true error rate, with 95 % confidence.
     pub error_bound: f64,
-    /// The label of a dominating structure on the Pareto front; `None` on the front.
+    /// The label of a Pareto-optimal structure that dominates this structure. `None` on the Pareto front.
     pub dominated_by: Option<&'a str>,
 }
 
@@ -37,7 +37,7 @@ pub fn judged(dataset: &Dataset) -> Vec<JudgedRays<'_>> {
         let kinds = each_once(epoch.structures.iter().flat_map(|own| &own.rays).map(|rays| rays.workload.as_str()));
         for kind in kinds {
             let mut structures: Vec<Judged> = epoch.structures.iter().filter_map(|own| Judged::of(own, kind)).collect();
-            // Upper bounds are compared: one error in many rays may mean a lower rate than none in few rays.
+            // Upper bounds are comparable between structures with different numbers of judged rays.
             let points: Vec<(f64, f64)> = structures.iter().map(|own| (own.ns_per_ray, own.error_bound)).collect();
             let labels: Vec<&str> = structures.iter().map(|own| own.structure.label.as_str()).collect();
             for (own, dominator) in structures.iter_mut().zip(dominators(&points)) {
@@ -62,7 +62,6 @@ impl JudgedRays<'_> {
 }
 
 impl<'a> Judged<'a> {
-    /// `None` if the structure has no time.
     fn of(structure: &'a Structure, kind: &str) -> Option<Self> {
         let rays = structure.rays.iter().find(|rays| rays.workload == kind)?;
         let errors = rays.errors.as_ref()?;

@@ -65,16 +65,15 @@ struct AccuracyArgs {
     seed: u64,
 }
 
-/// The default time limit of all samples of a scene.
+/// The default of `--budget`.
 const BUDGET: Seconds = Seconds::whole(40);
 
-/// The default selection omits brute force on meshes with more triangles than this.
+/// Maximum number of triangles for brute force in the default selection.
 const SMALL: usize = 5000;
 
-/// With more findings, the terminal prints the findings only with `--verbose`.
 const HEADLINES: usize = 3;
 
-/// A structure that takes longer than this multiple of the median is timed on fewer rays.
+/// The value of [`Settings::slowest`].
 const SLOWEST: f64 = 30.0;
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
@@ -167,7 +166,7 @@ fn failures(dataset: &Dataset, all: &[JudgedRays]) -> Vec<Failure> {
         let own = judged.structure;
         let must_be_exact = own.triangle_test == Exact::NAME && known_defect(&own.name).is_none();
         if must_be_exact && judged.errors.errors() + judged.errors.wrong_primitive > 0 {
-            // No sentence: the tables already show this failure.
+            // The sentence is empty, because the tables show the errors.
             failures.push(Failure { structure: own.name.clone(), wrong: true, ..Failure::default() });
         }
     }

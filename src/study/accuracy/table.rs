@@ -66,7 +66,7 @@ pub const LEGEND: [&str; 4] = [
      the Pareto front (no other structure is at most as slow, at most as wrong, and better in one of the two).",
 ];
 
-/// One row per structure and workload.
+/// One row per scene, workload and structure.
 pub fn data(all: &[JudgedRays]) -> Table {
     let rows = all.iter().flat_map(|of_kind| of_kind.structures.iter().map(move |own| (of_kind, own)));
     type Row<'a> = (&'a JudgedRays<'a>, &'a Judged<'a>);

@@ -22,7 +22,7 @@ fn measured(words: &str) -> Dataset {
     dataset(measured.collect())
 }
 
-/// Rays, hits, missed, false hits, wrong depths and wrong primitives over the exact test and over `moller-trumbore`.
+/// Expected counts with the exact triangle test, then with `moller-trumbore`.
 const KNOWN: [(&str, [[u64; 6]; 2]); 2] = [
     ("edge", [[400, 396, 0, 0, 0, 0], [400, 396, 1, 3, 18, 57]]),
     ("grazing", [[400, 351, 0, 0, 0, 0], [400, 351, 7, 4, 129, 8]]),
@@ -37,7 +37,7 @@ fn exact_is_right_and_single_precision_is_not() {
         let errors = own.errors;
         [errors.rays, errors.hits, errors.missed, errors.false_hits, errors.wrong_depth, errors.wrong_primitive]
     };
-    // The same options judge the same rays on every machine.
+    // The counts are the same on every machine.
     for (of_kind, (kind, expected)) in all.iter().zip(KNOWN) {
         assert_eq!(of_kind.kind, kind);
         for (own, expected) in of_kind.structures.iter().zip(expected) {
@@ -50,7 +50,7 @@ fn exact_is_right_and_single_precision_is_not() {
         assert!(exact.errors.ulps.unwrap().max <= 0.5 && rounds.error < rounds.error_bound);
         // The bound for no error in 400 rays is 1 - 0.05^(1 / 400).
         assert!((exact.error_bound - 0.007461).abs() < 1e-6, "{}", exact.error_bound);
-        // The other structure has a higher error bound. It cannot dominate, even if it is faster.
+        // The other structure has a higher error bound, so it cannot dominate.
         assert!(exact.dominated_by.is_none());
     }
     assert_eq!(all.len(), KNOWN.len());

@@ -13,10 +13,10 @@ named_enum! {
     }
 }
 
-/// A value of a factor: its name, and the keys of the structure that select it.
+/// The name of a factor level, and its structure options.
 pub type Level = (&'static str, &'static str);
 
-/// The report's rule comes first, the surface area heuristic over all planes last.
+/// The first element belongs to [`Treatment::REPORT`]. The last element belongs to [`Treatment::SAH`].
 const PLANES: [Level; 6] = [
     ("vertex median cyclic", "plane=vertex-median,axis=cyclic"),
     ("vertex median longest", "plane=vertex-median,axis=longest"),
@@ -26,31 +26,31 @@ const PLANES: [Level; 6] = [
     ("SAH exact", "plane=sah-sweep"),
 ];
 
-/// The report's rule comes first, the surface area heuristic last.
+/// The first element belongs to [`Treatment::REPORT`]. The last element belongs to [`Treatment::SAH`].
 const STOPS: [Level; 3] = [
     ("report", "stop=report,leaf=100,threshold=0.7,limit=below"),
     ("leaf 8", "stop=leaf,leaf=8,limit=at-most"),
     ("SAH", "stop=sah"),
 ];
 
-/// The report's traversal comes first.
+/// The first element belongs to [`Treatment::REPORT`]. The last element belongs to [`Treatment::SAH`].
 const TRAVERSALS: [Level; 2] =
     [("child boxes", "traversal=child-boxes"), ("plane intervals", "traversal=plane-intervals")];
 
-/// The keys that all cells share, with the defaults of `sah-kd`. The report's rules ignore all except `duplication`.
+/// All cells have these options, with the default values of `sah-kd`.
 const COMMON: &str = "traversal_cost=1.0,intersection_cost=0.7,empty_bonus=0.2,duplication=8.0";
 
 /// Trees that are built twice, for the A/A check.
 pub const TWINS: [Treatment; 2] = [Treatment::REPORT, Treatment::SAH];
 
-/// The trees of the design in order, then the twins; each tree with its role.
+/// Pairs of cell and role: first all cells, then [`TWINS`].
 pub fn trees() -> impl Iterator<Item = (Treatment, String)> {
     Treatment::all().map(|cell| (cell, cell.role())).chain(TWINS.map(|cell| (cell, TWIN.into())))
 }
 
 pub const CELLS: usize = PLANES.len() * STOPS.len() * TRAVERSALS.len();
 
-/// One cell of the design: the index of the level of each factor.
+/// One cell of the design: one level index per factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Treatment(pub [usize; 3]);
 
@@ -80,7 +80,6 @@ impl Treatment {
         self.levels().map(|(name, _)| name).join(" / ")
     }
 
-    /// `NAME:key=value,..` over the triangle test `test`.
     pub fn spec(self, test: &str) -> String {
         format!("median-kd:test={test},{},{COMMON}", self.levels().map(|(_, keys)| keys).join(","))
     }
@@ -105,7 +104,7 @@ mod tests {
             let keys = ours.as_object().unwrap().keys().filter(|key| ours[*key] != theirs[*key]);
             keys.cloned().collect::<Vec<_>>()
         };
-        // Two keys that the report's rules ignore, and the limit of duplication.
+        // The rules of `REPORT` ignore `intersection_cost` and `empty_bonus`.
         assert_eq!(different(Treatment::REPORT, "median-kd"), ["intersection_cost", "empty_bonus", "duplication"]);
         assert_eq!(different(Treatment::SAH, "sah-kd"), [""; 0]);
     }

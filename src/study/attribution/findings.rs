@@ -1,4 +1,4 @@
-//! The findings: sentences, and the numbers of the claims.
+//! The findings of `attribution`.
 
 use super::design::{Factor, Treatment};
 use super::result::Attribution;
@@ -9,7 +9,7 @@ use crate::report::words::{each_once, interval, listed, slug};
 use crate::scene::WorkloadKind;
 use crate::study::kendall::{kendall, mean_of_scenes};
 
-/// The scenes that the claims are about.
+/// The scenes in the claims of the study.
 pub const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
 
 pub fn findings(results: &[Attribution]) -> Vec<Finding> {
@@ -44,7 +44,7 @@ fn parts(hard: &[&Attribution]) -> Option<Finding> {
         let parts: Vec<String> = hard.iter().map(|r| interval(r.part(*factor))).collect();
         format!("{} {}", words(*factor), listed(&parts))
     };
-    // The interval of the largest factor lies above the intervals of the other factors on every scene.
+    // On every scene, the interval of `first` lies above the intervals of the other factors.
     let first = Factor::ALL.into_iter().find(|&factor| {
         let above = |r: &Attribution, other: Factor| r.part(factor).low() > r.part(other).high();
         hard.iter().all(|r| Factor::ALL.into_iter().all(|other| other == factor || above(r, other)))
@@ -77,8 +77,8 @@ pub fn split(r: &Attribution) -> Finding {
     Finding::new(format!("split-{}", slug(&r.first().scene)), sentence).with_value(whole)
 }
 
-/// How much more the SAH tree gains on Sponza than on Dragon and on Lucy. Stand-ins are compared only if the results
-/// of real meshes are missing.
+/// The ratios of the speedup on Sponza to the speedups on Dragon and Lucy. Stand-ins are used only if the real meshes
+/// give no ratio.
 fn gains(results: &[Attribution]) -> Vec<Finding> {
     let of = |stand_in: bool| -> Vec<Finding> {
         let whole = |name: &str| Some(result_of(results, name, stand_in)?.whole());
@@ -88,7 +88,7 @@ fn gains(results: &[Attribution]) -> Vec<Finding> {
     [false, true].map(of).into_iter().find(|found| !found.is_empty()).unwrap_or_default()
 }
 
-/// Kendall's tau of SAH cost and time among trees with one traversal, averaged over traversals and scenes.
+/// Kendall's tau between SAH cost and time, averaged over traversal methods and scenes.
 fn tau(results: &[Attribution]) -> Option<Estimate> {
     let families = results.iter().flat_map(|r| [0, 1].map(|traversal| (r, traversal)));
     let taus = families.filter_map(|(r, traversal)| {
@@ -96,6 +96,6 @@ fn tau(results: &[Attribution]) -> Option<Estimate> {
         let cost = |cell: Treatment| Some((r.trees[cell.number()].shape.sah_cost?, r.ns_per_ray(cell)));
         Some((r.first().scene.as_str(), kendall(&trees.filter_map(cost).collect::<Vec<_>>(), |_, _| true)?))
     });
-    // A mean needs at least two scenes.
+    // The interval is `None` for a single scene.
     mean_of_scenes(taus).filter(|tau| tau.interval.is_some())
 }

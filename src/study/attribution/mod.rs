@@ -1,8 +1,7 @@
 //! `attribution`: the shares of split plane, stop rule and traversal in the SAH speedup.
 //!
-//! The design is factorial: six split planes, three stop rules and two traversals in all combinations. The report's
-//! tree and the SAH tree are built twice, for the A/A check. The role of a structure is its cell of the design, or
-//! `twin` for a second build.
+//! The design is factorial: six split planes, three stop rules and two traversals in all combinations. Two trees are
+//! built twice, for the A/A check. The role of a second build is `twin`.
 
 mod design;
 mod findings;
@@ -51,7 +50,7 @@ struct AttributionArgs {
     /// Triangle test of all trees (see `sahara list`)
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME", default_value = "exact")]
     test: String,
-    // The defaults of epochs, runs and budget in seconds. All claims are judged together, which needs many epochs.
+    // Default epochs, default runs, and default budget in seconds.
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }

@@ -7,17 +7,16 @@ use crate::study::measurement::{Measurement, of_scene};
 use crate::study::{Dataset, Epoch, SceneEpochs};
 
 pub struct Attribution<'a> {
-    /// Each epoch has the [`trees`] of the design.
     pub epochs: Vec<&'a Epoch>,
     /// One measurement per cell, in the order of [`Treatment::number`].
     pub trees: Vec<Measurement>,
-    /// For each epoch, the logarithm of the time of each tree, including twins.
+    /// Median log time by epoch and tree, including twins.
     medians: Vec<Vec<f64>>,
     /// The A/A noise of all scenes together.
     pub noise: AaNoise,
 }
 
-/// A scene with other trees than the design is omitted.
+/// A scene is omitted if its structures do not match [`trees`].
 pub fn results(dataset: &Dataset) -> Vec<Attribution<'_>> {
     let roles: Vec<String> = trees().map(|(_, role)| role).collect();
     let is_designed = |epoch: &&Epoch| epoch.structures.iter().map(|own| &own.role).eq(&roles);
@@ -28,7 +27,7 @@ pub fn results(dataset: &Dataset) -> Vec<Attribution<'_>> {
     results
 }
 
-/// Time per ray of each sample in ns, on the rays that all trees are timed on.
+/// Nanoseconds per ray of each sample, on the common rays of all trees.
 fn paces(epoch: &Epoch, tree: usize) -> Vec<f64> {
     let rays = &epoch.structures[tree].rays[0];
     rays.ns_per_ray(epoch.common_rays(&rays.workload))
@@ -42,13 +41,13 @@ impl<'a> Attribution<'a> {
         Self { trees: of_scene(&scene), epochs: scene.epochs, medians, noise: AaNoise::default() }
     }
 
-    /// The input of [`AaNoise::new`]: for each twin, the logarithm of its A/A ratio in each epoch.
+    /// ln(time of the first build / time of the twin) for each twin and epoch.
     fn twins(&self) -> [Vec<Vec<f64>>; 2] {
         let log = |i: usize| values(&self.medians, |logs| logs[TWINS[i].number()] - logs[CELLS + i]);
         [0, 1].map(|i| log(i).into_iter().map(|log| vec![log]).collect())
     }
 
-    /// The measurement of the report's tree. Its fields about scene and workload apply to all trees of the scene.
+    /// The measurement of [`Treatment::REPORT`]. All trees have the same scene and workload.
     pub fn first(&self) -> &Measurement {
         &self.trees[0]
     }
@@ -59,13 +58,13 @@ impl<'a> Attribution<'a> {
         median(&paces.collect::<Vec<_>>()).expect("every tree is timed")
     }
 
-    /// A ratio of times as a weighted product: exp(sum of weight x ln(time)), with its interval.
+    /// Returns exp(sum of weight * ln(time)) with an interval.
     pub fn speedup(&self, weights: &Weights) -> Estimate {
         let sum = |logs: &[f64]| weights.iter().zip(logs).map(|(weight, log)| weight * log).sum();
         ratio(&self.medians, sum, self.noise.weighted(weights))
     }
 
-    /// Time of the report's tree / time of the SAH tree.
+    /// Time of [`Treatment::REPORT`] / time of [`Treatment::SAH`].
     pub fn whole(&self) -> Estimate {
         self.speedup(&gain(Treatment::REPORT, Treatment::SAH))
     }
@@ -81,7 +80,7 @@ impl<'a> Attribution<'a> {
         [orders.iter().copied().fold(f64::INFINITY, f64::min), orders.iter().copied().fold(0.0, f64::max)]
     }
 
-    /// Speedup of the exact SAH plane over the report's plane, with leaf limit 8 and plane intervals.
+    /// Speedup of the plane `SAH exact` over the plane `vertex median cyclic`, with `leaf 8` and `plane intervals`.
     pub fn plane_alone(&self) -> Estimate {
         self.speedup(&gain(Treatment([0, 1, 1]), Treatment([5, 1, 1])))
     }
@@ -97,7 +96,7 @@ pub fn gain(from: Treatment, to: Treatment) -> Weights {
     weights
 }
 
-/// The weights of the Shapley value of `factor`: its gain, averaged over all `ORDERS`.
+/// The weights of the Shapley value: the mean gain of `factor` over all `ORDERS`.
 ///
 /// # References
 /// Shapley: A value for n-person games. In: Contributions to the Theory of Games II, 1953.
@@ -117,5 +116,5 @@ fn parts_by_order(factor: Factor) -> [Weights; 6] {
     })
 }
 
-/// All orders in which the three factors change from the report's tree to the SAH tree.
+/// All orders in which the three factors can change from `REPORT` to `SAH`.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];

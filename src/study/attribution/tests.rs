@@ -1,4 +1,4 @@
-//! Checks the report on datasets with known effects.
+//! Checks the study `attribution` on datasets with known speedups.
 
 use super::design::{CELLS, Factor, TWINS};
 use super::result::{Attribution, results};
@@ -11,10 +11,10 @@ use crate::study::case::tests::example as case;
 use crate::study::dataset::tests::dataset;
 use crate::study::epoch::{Epoch, RayCounts, tests};
 
-/// Speedups by factor. `TOGETHER` is the additional speedup of the SAH plane combined with the SAH stop rule.
 const STOP: f64 = 8.0;
 const PLANE: f64 = 1.5;
 const TRAVERSAL: f64 = 1.25;
+/// The additional speedup of trees with the SAH plane and the SAH stop rule.
 const TOGETHER: f64 = 2.0;
 
 fn factor(cell: Treatment) -> f64 {
@@ -24,7 +24,6 @@ fn factor(cell: Treatment) -> f64 {
     gains.into_iter().filter(|(has, _)| *has).map(|(_, gain)| gain).product()
 }
 
-/// Times vary by up to `noise` between trees, and by up to a third between rounds.
 fn measured(scene: &str, epochs: usize, noise: f64) -> Vec<Measured> {
     let mut random = RandomOrder::new(3);
     let cells: Vec<Treatment> = Treatment::all().chain(TWINS).collect();
@@ -89,7 +88,6 @@ fn the_split_is_the_one_put_in_and_multiplies_to_the_whole() {
             if noise > 0.0 {
                 return assert!(whole.holds(STOP * PLANE * TRAVERSAL * TOGETHER), "{whole:?}");
             }
-            // Without noise, every number is exact.
             let [least, most] = r.range(Factor::Stop);
             for (found, truth) in [
                 (whole.estimate, 30.0),
@@ -138,7 +136,6 @@ fn claims_are_judged_by_real_meshes_where_they_are_there() {
     assert_eq!(scenes, ["Dragon (stand-in)", "Dragon", "Sponza (stand-in)"]);
     assert!(both.finding("split-dragon").unwrap().sentence.starts_with("Dragon: "));
     assert_eq!(value(&both, "gain-dragon").unwrap().estimate, value(&stand_ins, "gain-dragon").unwrap().estimate);
-    // A scene with other trees than the design is left out.
     all[0].epoch.structures[1].role = "of another design".into();
     assert!(results(&dataset(all[..1].to_vec())).is_empty());
 }

@@ -8,7 +8,7 @@ use crate::study::measurement::{COLUMNS, Measurement, MeasurementColumn, push_co
 /// `table` has one row per structure in `structures`.
 pub fn add_columns(table: &mut Table, all: &[Measurement], structures: &[String]) {
     let own: [MeasurementColumn; 12] = [
-        // 0 means unknown: runners may report no build time, and some structures report no size.
+        // A value of 0 means unknown.
         ("build", |r| known(r.build_ns as usize).map(|ns| Cell::duration(ns as f64)).into()),
         ("peak", |r| r.build_peak_bytes.map(Cell::bytes).into()),
         ("memory", |r| known(r.shape.bytes).map(Cell::bytes).into()),
@@ -36,7 +36,7 @@ fn known(n: usize) -> Option<usize> {
     Some(n).filter(|&n| n > 0)
 }
 
-/// The number of rays for which build and tracing take as long as with the fastest builder. Brute force is excluded.
+/// The number of rays after which a slower build breaks even with the fastest build.
 pub fn pays_off_after(all: &[Measurement], own: &Measurement) -> Option<f64> {
     let is_rival = |r: &&Measurement| {
         let same = r.scene == own.scene && r.workload == own.workload;
@@ -79,7 +79,7 @@ mod tests {
     fn a_dearer_build_pays_off_where_its_rays_are_cheaper() {
         let of = |label: &str, build_ns: u64, ns: f64| Measurement { build_ns, ..example(label, "primary", &[ns], 1) };
         let all = [of("a", 1000, 5000.0), of("b", 2000, 4500.0), of("c", 9000, 6000.0), of("brute-force", 1, 9e9)];
-        // Structure b saves one nanosecond per ray.
+        // Compared with structure a, structure b saves 1 ns per ray.
         let found: Vec<Option<f64>> = all.iter().map(|own| pays_off_after(&all, own)).collect();
         assert_eq!(found, [None, Some(1000.0), None, None]);
         let unknown = [of("a", 1000, 5000.0), of("runner", 0, 10.0)];

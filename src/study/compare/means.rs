@@ -8,8 +8,7 @@ use crate::report::words::{distinct, each_once, listed};
 use crate::report::{Cell, Table, Tone};
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// A cell is a scene and a workload. A mean is over the cells in which structure and reference have a time. A mean that
-/// lacks a cell of the reference is never marked as the best.
+/// A mean skips workloads on which the structure or the reference has no time.
 pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let structures = distinct(all.iter().map(|r| &r.label));
@@ -53,7 +52,7 @@ pub fn mean_table(all: &[Measurement], references: &[Reference]) -> Table {
     let untimed = || all.iter().filter(|r| r.mrays_per_s.is_none());
     let wrong = untimed().filter(|r| r.is_disqualified() || r.declined.is_none()).count();
     let declined = untimed().count() - wrong;
-    // A structure that is refused on a scene has no measurements of this scene.
+    // Refused structures have no measurements.
     let cells = each_once(all.iter().map(|r| (&r.scene, &r.workload))).len();
     let missing = (structures.len() * cells).saturating_sub(all.len());
     let reasons = [

@@ -1,4 +1,4 @@
-//! `compare`: builds, checks, counts and times every structure on every workload of a scene.
+//! The study `compare`: the speed of structures on the workloads of each scene.
 
 mod details;
 mod means;
@@ -26,7 +26,7 @@ use rank::Ranking;
 pub use reference::Reference;
 use table::refusals;
 
-/// The arguments of `study all`.
+/// The arguments of `compare` in `study all`.
 const FULL: &str = "-s all -s sah-hybrid:batch=packets -s median-kd:test=moller-trumbore -s sah-kd:test=moller-trumbore \
     -s sah-kd-wide:test=moller-trumbore -s sah-kd-tight:test=moller-trumbore -s sah-hybrid:test=moller-trumbore \
     -s sah-bvh:test=moller-trumbore -s obvhs-bvh2:test=exact -s obvhs-cwbvh:test=exact --epochs 4 --runs 1 --budget 4";
@@ -58,7 +58,9 @@ fn report(dataset: &Dataset, matches: &ArgMatches) -> Report {
     }
 }
 
-/// Most failures have no sentence, because the tables show them. Each reason of a refusal has one sentence.
+/// Keeps one sentence per reason of a refusal.
+///
+/// Keeps one sentence per structure with wrong hits and no known defect.
 fn failures(dataset: &Dataset) -> Vec<Failure> {
     let (mut failures, mut reported) = (dataset.failures(), vec![]);
     let scenes = dataset.scenes();
@@ -66,7 +68,6 @@ fn failures(dataset: &Dataset) -> Vec<Failure> {
     let mut reasons = refusals(&refused).into_iter();
     for own in &mut failures {
         if own.refused && !refused.is_empty() {
-            // There are at least as many refused structures as reasons, so no reason is missing.
             own.sentence = reasons.next().unwrap_or_default();
         } else if !own.wrong || known_defect(&own.structure).is_some() || reported.contains(&own.structure) {
             own.sentence.clear();
@@ -77,7 +78,7 @@ fn failures(dataset: &Dataset) -> Vec<Failure> {
     failures
 }
 
-/// Keeps the first of several warnings that differ only in numbers.
+/// Removes a warning that differs from an earlier warning only in digits.
 fn warnings(dataset: &Dataset) -> Vec<String> {
     let all = dataset.scenes().into_iter().flat_map(|scene| scene_warnings(&scene, &dataset.provenance));
     let words = |warning: &str| warning.replace(|c: char| c.is_ascii_digit() || c == '.', "");

@@ -1,4 +1,4 @@
-//! The options of `compare` and their plan.
+//! The options of `compare`, and the plan of a run.
 
 use std::collections::BTreeSet;
 use std::ffi::OsString;
@@ -68,12 +68,12 @@ pub struct CompareArgs {
     pub wide: bool,
 }
 
-/// Limits of a quick run. Times and tests are totals over all structures.
+/// Limits of a quick run.
 const QUICK_EPOCHS: u16 = 3;
 const QUICK_RAYS: usize = 1 << 14;
-/// Time of all epochs of a scene.
+/// Time limit for all epochs of a scene.
 const QUICK: Duration = Duration::from_secs(4);
-/// Time of the samples of one epoch.
+/// Time limit for the samples of one epoch.
 const QUICK_SAMPLES_NS: u64 = 250_000_000;
 const QUICK_CHECKS: usize = 1 << 28;
 const QUICK_CHECKS_NS: u64 = 1_000_000_000;
@@ -81,7 +81,7 @@ const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 /// An additional structure of the default selection.
 const PACKETS: &str = "sah-hybrid:batch=packets";
 
-/// The reference structure of a gate. Its code is independent of this crate and of a user's crate.
+/// The default reference structure with `--only` or `--budget none`.
 const GATE_REFERENCE: &str = "obvhs-bvh2";
 
 /// The value of `-s` that omits all structures except runners.
@@ -122,7 +122,7 @@ impl CompareArgs {
                 anyhow::bail!("--only {name} measures nothing else: omit the runner {}", other.spec);
             }
         }
-        // A run without a budget may be one of the two runs that a gate compares.
+        // A run without a budget counts as a gate.
         let is_gate = self.reference.is_none() && (self.only.is_some() || self.measuring.budget == Limit(None));
         if is_gate && structures.iter().all(|own| !is_obvhs(own.name()) || own.spec.contains("test=")) {
             structures.extend(registry.choose(GATE_REFERENCE).ok().map(|choice| (&choice).into()));
@@ -262,13 +262,13 @@ mod tests {
         let plan = (STUDY.plan)(&matches, &registry).unwrap();
         let labels: Vec<&str> = plan.cases[0].structures.iter().map(|own| own.spec.as_str()).collect();
         assert!(registry.names().iter().all(|name| labels.contains(name)), "{labels:?}");
-        // Each `-s` except `-s all` adds one structure to the names. `-s all` is counted for the twin.
+        // Each `-s` except `-s all` adds one structure. The twin is one more structure.
         assert_eq!(labels.len(), registry.names().len() + super::super::FULL.matches("-s ").count());
     }
 
     #[test]
     fn a_gate_measures_its_structure_and_the_yardstick() {
-        // The twin has the spec of its structure and is removed.
+        // `each_once_by` removes the twin, because the twin repeats a spec.
         let distinct = |words: &[&str]| each_once_by(specs(&[&["cube"], words].concat()), String::eq);
         assert_eq!(distinct(&["--only", "sah-bvh"]), ["sah-bvh", "obvhs-bvh2"]);
         assert_eq!(distinct(&["-s", "sah-kd", "--budget", "none"]), ["sah-kd", "obvhs-bvh2"]);

@@ -1,4 +1,4 @@
-//! Ranks the structures by their speed over all scenes and workloads.
+//! Ranks structures by mean speed.
 
 use super::reference::{Reference, speed};
 use crate::measure::{AaNoise, Estimate};
@@ -9,29 +9,30 @@ use crate::request::is_external;
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{EdgeF64, Exact, MollerTrumboreF64, TriangleTest};
 
-/// The key of the finding whose name is the label of the fastest structure.
+/// The key of the finding that names the fastest structure.
 pub const FASTEST: &str = "fastest";
 
-/// The triangle tests that are exact or in double precision. All other tests round to single precision.
+/// The triangle tests that are exact or in double precision.
 const PRECISE: [&str; 3] = [Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME];
 
 /// A scene and a workload.
 type Cell<'a> = (&'a str, &'a str);
 
-/// The structures, fastest first, by mean speed over the cells in which all ranked structures have a time. A structure
-/// with few times is not ranked, because it would reduce these cells.
+/// Ranked structures have a time in more than half of the reference's cells.
 pub struct Ranking<'a> {
     all: &'a [Measurement],
     noise: AaNoise,
     reference: &'a Reference,
+    /// The cells in which every ranked structure has a time.
     cells: Vec<Cell<'a>>,
+    /// Sorted by decreasing speed.
     ranked: Vec<Ranked<'a>>,
 }
 
 /// A structure and its speed relative to the reference.
 struct Ranked<'a> {
     label: &'a str,
-    /// Any measurement of the structure.
+    /// One measurement of the structure.
     example: &'a Measurement,
     speed: Option<Estimate>,
 }
@@ -43,7 +44,7 @@ fn find<'a>(all: &'a [Measurement], label: &str, (scene, workload): Cell) -> Opt
 }
 
 impl<'a> Ranking<'a> {
-    /// `None` if fewer than two structures share a cell.
+    /// `None` if fewer than two structures are ranked or no common cell exists.
     pub fn of(all: &'a [Measurement], reference: &'a Reference) -> Option<Self> {
         let related = all.iter().filter(|own| reference.rival(all, own).is_some());
         let mut cells: Vec<Cell> = each_once(related.map(|own| (own.scene.as_str(), own.workload.as_str())));
@@ -70,7 +71,7 @@ impl<'a> Ranking<'a> {
     pub fn findings(&self) -> Vec<Finding> {
         let is_precise = |row: &&Ranked| PRECISE.contains(&row.example.triangle_test.as_str());
         let (precise, single): (Vec<&Ranked>, Vec<&Ranked>) = self.ranked.iter().partition(is_precise);
-        // Structures in single precision stay in the ranking although rounding gives some of them wrong hits.
+        // Wrong hits do not remove a structure from the ranking `single`.
         let errs = |row: &&Ranked| self.all.iter().any(|own| own.label == row.label && own.is_disqualified());
         let right: Vec<&Ranked> = precise.iter().copied().filter(|row| !errs(row)).collect();
         let ranks = [
@@ -83,12 +84,12 @@ impl<'a> Ranking<'a> {
         let mut found: Vec<Finding> = firsts.map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
         found.extend(self.cost(&precise, &single).map(Finding::detail));
         found.extend(self.ranked.iter().filter(|row| !errs(row)).filter_map(|row| self.speed_finding(row)));
-        // The page names the fastest structure with a precise test, or else the fastest in single precision.
+        // Only one finding has the key `FASTEST`.
         found.extend(fastest.into_iter().next());
         found
     }
 
-    /// `None` for built-in structures and for the reference.
+    /// `None` for built-in structures and the reference.
     fn speed_finding(&self, row: &Ranked) -> Option<Finding> {
         let value = row.speed.filter(|value| {
             *value != Estimate::exact(1.0) && is_external(&row.example.structure, &row.example.triangle_test)
@@ -98,17 +99,17 @@ impl<'a> Ranking<'a> {
         Some(Finding::new(format!("speed-{}", slug(label)), sentence).with_value(value))
     }
 
-    /// Speed of `one` / speed of `other`: the geometric mean over the cells.
+    /// The geometric mean of (speed of `one` / speed of `other`) over the cells.
     fn ratio(&self, one: &str, other: &str) -> Option<Estimate> {
         let pair = |cell: &Cell| find(self.all, one, *cell).zip(find(self.all, other, *cell));
         speed(self.cells.iter().map(pair).collect::<Option<Vec<_>>>()?, &self.noise)
     }
 
-    /// Returns a sentence about the fastest structure, and its label for the page.
+    /// Returns two findings about the fastest structure. The second finding has the key `FASTEST`.
     fn first(&self, key: &str, words: &str, rows: &[&Ranked]) -> Option<(Finding, Finding)> {
         let (first, others) = rows.split_first()?;
         let value = first.speed?;
-        // Correct for multiple comparisons: one per other structure.
+        // The correction for multiple comparisons counts one comparison per structure in `others`.
         let is_indistinguishable = |row: &&&Ranked| {
             self.ratio(first.label, row.label).is_some_and(|ratio| ratio.ratio_among(others.len()).holds(1.0))
         };
@@ -141,7 +142,9 @@ impl<'a> Ranking<'a> {
         Some((Finding::new(key, sentence).with_value(value), Finding::named(FASTEST, names)))
     }
 
-    /// Time with a precise test / time in single precision, for structures that differ only in the triangle test.
+    /// Time with a precise test / time in single precision.
+    ///
+    /// The two structures of a ratio differ only in the triangle test.
     fn cost(&self, precise: &[&Ranked<'a>], single: &[&Ranked<'a>]) -> Option<Finding> {
         let kind = |row: &Ranked<'a>| (&row.example.structure, &row.example.config);
         let cost = |right: &&Ranked<'a>| {
@@ -189,7 +192,7 @@ mod tests {
         for scene in ["a", "b", "c"] {
             all.extend(times.map(|(label, ns)| record(scene, label, ns)));
         }
-        // One structure has no time in one of three cells. Another structure has a time in only one cell.
+        // Structure `slow` has no time in scene a. Structure `rare` has a time only in scene a.
         all[0].mrays_per_s = None;
         all.push(record("a", "rare", 1.0));
         let reference = Reference::of(&all, None).pop().unwrap();
@@ -210,10 +213,10 @@ mod tests {
             sentences[1].starts_with(&format!("Of 3 structures in single precision, {} has", single[0])),
             "{sentences:?}"
         );
-        // The two structures of this ratio have the same keys: packets are not compared with single rays.
+        // The ratio 1.25 compares two structures without packets.
         assert!(sentences[2].contains("exact") && sentences[2].contains("1.25"), "{sentences:?}");
         assert_eq!(findings.last().and_then(|finding| finding.name.as_deref()), Some("fast"));
-        // A wrong hit in one cell excludes the structure.
+        // A wrong hit in scene c excludes `fast`.
         let mut erring = all.clone();
         erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
             (r.mrays_per_s, r.wrong_hits, r.checked_rays) = (None, 2, 9);

@@ -1,13 +1,14 @@
-//! The reference of a table, and ratios between measurements with their intervals.
+//! The reference of a table, and speeds relative to the reference.
 
 use crate::measure::{AaNoise, Estimate, Rerun, cut_to_shared_epochs, epoch_values, mean};
 use crate::registry::is_named;
 use crate::request::REPORT_TREE;
 use crate::study::measurement::{Measurement, is_native_obvhs};
 
-/// The geometric mean of (speed of the first structure / speed of the second) over the pairs. The mean uses all epochs
-/// of each pair. The interval uses only the epochs that all pairs have. `None` if a measurement has no time, or the
-/// samples of a pair are not from the same rounds.
+/// The geometric mean of (speed of the first measurement / speed of the second measurement) over `pairs`.
+///
+/// The mean uses all epochs of each pair. The interval uses only the epochs that all pairs have.
+/// `None` if a pair is not comparable.
 pub fn speed<'a>(
     pairs: impl IntoIterator<Item = (&'a Measurement, &'a Measurement)>,
     noise: &AaNoise,
@@ -16,7 +17,7 @@ pub fn speed<'a>(
     let mut cells: Vec<_> = cells.collect::<Option<_>>()?;
     let of_cell = |cell: &Vec<Vec<f64>>| Some(mean(&epoch_values(std::slice::from_ref(cell))?));
     let centre = mean(&cells.iter().map(of_cell).collect::<Option<Vec<f64>>>()?);
-    // Scenes have different numbers of epochs if time ran out.
+    // Scenes may differ in their number of epochs.
     cut_to_shared_epochs(&mut cells);
     Some(Rerun::of(&epoch_values(&cells)?, noise.of_mean(cells.len()))?.around(centre).ratio())
 }
@@ -25,12 +26,11 @@ pub fn speed<'a>(
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Reference {
     Structure(String),
-    /// The fastest obvhs BVH on the same scene and rays.
+    /// The fastest obvhs BVH on each scene and workload.
     Obvhs,
 }
 
 impl Reference {
-    /// By default, returns the report's tree and obvhs if measured, or else the first structure.
     pub fn of(all: &[Measurement], named: Option<&str>) -> Vec<Self> {
         if let Some(spec) = named {
             let known = all.iter().map(|own| own.label.as_str()).find(|label| is_named(label, spec));
@@ -61,7 +61,7 @@ impl Reference {
         }
     }
 
-    /// The measurement of the reference on the scene and workload of `of`.
+    /// Returns the reference's measurement for the same scene and workload as `of`.
     pub fn rival<'a>(&self, all: &'a [Measurement], of: &Measurement) -> Option<&'a Measurement> {
         let is = |own: &&Measurement| match self {
             Self::Structure(label) => own.label == *label,
@@ -72,7 +72,7 @@ impl Reference {
         timed.max_by(|a, b| a.mrays_per_s.partial_cmp(&b.mrays_per_s).expect("numbers"))
     }
 
-    /// Each measurement in `of` with its reference, if both have a time.
+    /// Pairs each measurement in `of` with its `rival`. Each measurement of a pair has a time.
     pub fn pairs<'a>(
         &self,
         all: &'a [Measurement],

@@ -1,4 +1,4 @@
-//! Writes the findings, tables and figures of a comparison.
+//! The findings, tables and figures of a comparison.
 
 use super::means::mean_table;
 use super::table::{legend, nothing_measured, refusals, scene_table};
@@ -37,8 +37,9 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
     (sums[1] > 0).then(|| Finding::new("checked", sentence))
 }
 
-/// Kendall's tau of SAH cost and time per ray, over pairs of structures of different families. The claim covers only
-/// the built-in scenes.
+/// Kendall's tau of SAH cost and time per ray, for structures of different families.
+///
+/// `None` if a built-in scene is missing.
 pub fn tau(all: &[Measurement]) -> Option<Finding> {
     if !BUILTIN.iter().all(|builtin| all.iter().any(|r| r.scene == builtin.name)) {
         return None;
@@ -55,7 +56,6 @@ pub fn tau(all: &[Measurement]) -> Option<Finding> {
     Some(Finding::number("tau", mean_of_scenes(taus)?))
 }
 
-/// Structures of one family have cells and nodes of the same type.
 fn family(structure: &str) -> &str {
     match structure {
         REPORT_TREE | SAH_TREE => "binary kd-tree",
@@ -68,7 +68,7 @@ pub fn refused<'a>(scene: &SceneEpochs<'a>) -> Vec<&'a Structure> {
     scene.epochs[0].structures.iter().filter(|own| own.refused.is_some() && !own.is_twin()).collect()
 }
 
-/// The number of scenes whose figures a page shows unfolded.
+/// The maximum number of bar charts that are not folded.
 const UNFOLDED_SCENES: usize = 3;
 
 pub fn blocks(dataset: &Dataset, references: &[Reference], wide: bool) -> Vec<Block> {
@@ -115,7 +115,7 @@ fn bars(all: &[Measurement]) -> Figure {
     let mut labels = distinct(all.iter().map(|r| &r.label));
     let units = [REPORT_TREE, BRUTE_FORCE].map(String::from);
     let unit = units.into_iter().find(|unit| labels.contains(unit)).unwrap_or_else(|| labels[0].clone());
-    // Brute force is so slow that its bar would hide the differences between all other structures.
+    // A bar of brute force would hide the differences between faster structures.
     labels.retain(|label| unit == BRUTE_FORCE || label != BRUTE_FORCE);
     let workloads = distinct(all.iter().map(|r| &r.workload));
     let reference = Reference::Structure(unit.clone());

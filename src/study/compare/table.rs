@@ -1,4 +1,4 @@
-//! The table of one scene and its notes.
+//! The table of one scene, with notes.
 
 use super::details;
 use super::reference::Reference;
@@ -11,7 +11,7 @@ use crate::study::epoch::Structure;
 use crate::study::measurement::{Measurement, trace_noise};
 use crate::triangle::{Exact, TriangleTest};
 
-/// Structures with this key trace many rays per call.
+/// Structures with this option trace many rays per call.
 const PACKETS: &str = "batch=packets";
 
 pub fn legend(all: &[Measurement], references: &[Reference]) -> Vec<String> {
@@ -75,7 +75,7 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     let noise = trace_noise(all);
     for reference in references {
         let mean = |label: &String| {
-            // A structure has no mean if a workload has no time. Declined workloads do not count.
+            // Declined workloads are excluded. Every other workload must have a time.
             let own: Vec<&Measurement> = all.iter().filter(|r| r.label == *label).collect();
             let timed: Vec<&Measurement> = own.iter().copied().filter(|r| r.declined.is_none()).collect();
             let pairs = reference.pairs(all, timed.iter().copied());
@@ -132,8 +132,9 @@ fn defects(all: &[Measurement]) -> Vec<String> {
     distinct(all.iter().map(|r| &r.label)).iter().filter_map(note).collect()
 }
 
-/// A triangle test can miss hits although all checks pass. The checks compare a structure with brute force over the
-/// same triangle test.
+/// A triangle test can miss hits although all checks pass.
+///
+/// The checks use brute force with the same triangle test as the structure.
 fn unfit_tests(all: &[Measurement]) -> Vec<String> {
     let exact = |of: &Measurement| {
         let same = |r: &&Measurement| r.workload_hash == of.workload_hash && r.counts.rays == of.counts.rays;

@@ -66,7 +66,7 @@ fn with_all_fields() -> Dataset {
     Dataset { notes: vec!["a note".into()], ..dataset(measured.into()) }
 }
 
-/// Skips the keys of `labels` and `config`, because these keys vary.
+/// Collects all field names, except the keys inside `labels` and `config`.
 fn fields(value: &Value, names: &mut BTreeSet<String>) {
     match value {
         Value::Object(object) => {
@@ -82,7 +82,7 @@ fn fields(value: &Value, names: &mut BTreeSet<String>) {
     }
 }
 
-/// The names in the first column of the tables whose first heading is `head`.
+/// The names in the first column of all tables with the first heading `head`.
 fn documented(text: &str, head: &str) -> BTreeSet<String> {
     let tables = text.split("\n\n").filter(|part| part.starts_with(&format!("| {head} |")));
     let cells = tables.flat_map(|table| table.lines().skip(2)).filter_map(|row| row.split('|').nth(1));

@@ -1,6 +1,4 @@
-//! Computes and classifies the changes in time between two runs.
-//!
-//! Times are divided by the times of the reference structures in the same rounds.
+//! Compares the times of two runs and classifies each change.
 
 use std::slice::from_ref;
 
@@ -9,8 +7,7 @@ use crate::measure::{AaNoise, Estimate, Rerun, Variance, cut_to_shared_epochs, e
 use crate::report::words::{distinct, each_once};
 use crate::study::measurement::{Measurement, trace_noise};
 
-/// Returns the mean change of each structure, then the change in each cell. A gate may compare the runs up to `looks`
-/// times.
+/// Returns the mean changes of the structures, and the changes of the structures in single cells.
 pub(super) fn all(
     old: &[Measurement],
     new: &[Measurement],
@@ -24,7 +21,7 @@ pub(super) fn all(
     let (mut structures, mut cells): (Vec<Change>, Vec<Change>) = (vec![], vec![]);
     let mut labels = each_once(pairs.iter().map(|(_, new)| new.label.as_str()));
     labels.retain(|label| !references.iter().any(|one| one == label));
-    // The interval of each structure is corrected for the numbers of structures and looks.
+    // Bonferroni correction for `looks` comparisons of each structure.
     let looks = looks * labels.len();
     for label in labels {
         let of = |cell: Option<&Measurement>, cells, checked_rays, time| Change {
@@ -60,8 +57,8 @@ pub(super) fn all(
     (structures, cells)
 }
 
-/// The geometric mean over cells of new time / old time. `old` and `new` are logarithms of times, by cell, epoch and
-/// round.
+/// The geometric mean of new time / old time over all cells. `old` and `new` contain logarithms of times, by cell,
+/// epoch and round.
 fn change(old: &[Vec<Vec<f64>>], new: &[Vec<Vec<f64>>], noises: &[AaNoise; 2], references: usize) -> Option<Estimate> {
     let noises = [&noises[0], &noises[1]].map(|noise| weighted(noise, references, old.len()));
     Some(Rerun::change(&epoch_values(old)?, &epoch_values(new)?, noises)?.ratio())
@@ -80,8 +77,8 @@ pub(super) fn finding(time: Option<Estimate>, threshold: Option<f64>) -> Finding
     }
 }
 
-/// The variance that the A/A noise of a run adds to the mean log time over `cells` cells. Each time is relative to the
-/// mean of `references` references. The noise of different cells is independent.
+/// The variance that A/A noise adds to a mean log time over `cells` cells. Each time is relative to the geometric mean
+/// of `references` reference times. The noise of different cells is independent.
 fn weighted(noise: &AaNoise, references: usize, cells: usize) -> Variance {
     let mut weights = vec![-1.0 / references.max(1) as f64; references];
     weights.push(1.0);
@@ -95,9 +92,9 @@ pub(super) fn references(pairs: &[(&Measurement, &Measurement)]) -> Vec<String> 
     distinct(timed.filter(|old| has_reference_role(old)).map(|old| &old.label))
 }
 
-/// ln(time of `own` / geometric mean of the times of the references), by epoch and round. `other` is the same cell in
-/// the other run. The mean covers the references that both runs time in this cell. If `references` is empty, the result
-/// is ln(time per ray).
+/// ln(time of `own` / geometric mean of the reference times), by epoch and round. `other` is the counterpart of `own`
+/// in the other run. Only references with times in both runs, on the scene and workload of `own`, are used. If
+/// `references` is empty, the result is ln(ns per ray).
 fn relative(
     own: &Measurement,
     all: &[Measurement],

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 pub fn other_keys(old: &Value, new: &Value) -> Vec<(String, String, String)> {
-    // Two builds of a runner are comparable, so `build` and `command` do not count.
+    // Two builds of an external program are comparable, so the keys `build` and `command` are ignored.
     let keys = |value: &Value| {
         let mut map = value.as_object().cloned().unwrap_or_default();
         map.retain(|key, _| key != "build" && key != "command");

@@ -1,11 +1,10 @@
 //! Compares the speed and the hits of two runs of the same study.
 //!
-//! Times of two runs are not comparable, because the machine or its load may differ. So `diff` compares ratios to
-//! reference structures. The code of the references is the same in both runs. The references are measured in the same
-//! rounds as all other structures.
+//! The load of the machine may differ between runs. So `diff` compares times relative to reference structures. The
+//! reference structures must have the same code in both runs.
 //!
-//! A cell is one workload of one scene. The change of a structure is the geometric mean of new time / old time over the
-//! cells. The [interval](fn@crate::measure::Rerun::change) of the change decides the finding.
+//! A cell is one workload of one scene. The change of a structure is the geometric mean of new time / old time over all
+//! cells.
 //!
 #![doc = include_str!("GATE.md")]
 
@@ -40,8 +39,8 @@ pub struct Side {
 const REFERENCE: &str = "reference";
 
 impl Side {
-    /// `reference` names the reference structure. If `None`, the references are all obvhs structures with the obvhs
-    /// triangle test.
+    /// `reference` names the reference structure. If `None`, all obvhs structures with the obvhs triangle test are
+    /// references.
     pub fn new(dataset: &Dataset, reference: Option<&str>) -> Self {
         Self::of(dataset.provenance.clone(), measurements(dataset), reference)
     }
@@ -66,21 +65,21 @@ fn has_reference_role(own: &Measurement) -> bool {
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// If empty, the times are not normalised.
+    /// Labels of the reference structures. If empty, times are absolute.
     pub references: Vec<String>,
-    /// The smallest slowdown that counts as a regression. `None` if the comparison is not a gate.
+    /// The smallest slowdown that may be a regression. `None` if the comparison is not a gate.
     pub threshold_percent: Option<f64>,
-    /// The maximum number of comparisons of a gate while the runs grow.
+    /// The maximum number of comparisons while epochs are added to the runs.
     pub looks: usize,
     pub structures: Vec<Change>,
     pub cells: Vec<Change>,
     pub wrong: Vec<Wrong>,
-    /// Different keys and triangle tests, such as `leaf of mybvh 4, now 8`.
+    /// Changed configuration keys and triangle tests, such as `leaf of mybvh 4, now 8`.
     pub differences: Vec<String>,
     pub settings: Vec<String>,
-    /// The processor and SIMD level of each run. `None` if they are equal.
+    /// The processor and SIMD level of each run. `None` if the runs have the same processor and SIMD level.
     pub machines: Option<[String; 2]>,
-    /// Cells that only the old run has, such as `mybvh on the primary rays of Cube`.
+    /// Measurements that only the old run has, such as `mybvh on the primary rays of Cube`.
     pub only_old: Vec<String>,
     pub only_new: Vec<String>,
 }
@@ -93,14 +92,15 @@ pub struct Change {
     pub scene: Option<String>,
     pub workload: Option<String>,
     pub cells: usize,
-    /// Checked rays of the new run.
+    /// The number of checked rays in the new run.
     pub checked_rays: usize,
-    /// New time / old time, relative to the references. `None` if a run has no time.
+    /// New time / old time, relative to the references. `None` if a time is missing.
     pub time: Option<Estimate>,
     pub finding: Finding,
 }
 
-/// The class of a change. The threshold is a ratio, for example 1.1 for 10 %.
+/// The class of a change, by the estimate and interval of [`Change::time`]. The threshold is a ratio, for example 1.1
+/// for 10 %.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Finding {
@@ -112,7 +112,7 @@ pub enum Finding {
     Slower,
     /// The estimate is at least the threshold, and the interval lies above 1.
     Regression,
-    /// The interval reaches the threshold without a regression.
+    /// Not a regression, but the upper end of the interval is at least the threshold.
     Inconclusive,
     /// A run has no time or only one epoch.
     Unknown,
@@ -127,8 +127,8 @@ pub struct Wrong {
 }
 
 impl Comparison {
-    /// Compares two runs that [`unlike`](fn@unlike) accepts. Each comparison may raise a false alarm, so `looks` widens
-    /// the intervals.
+    /// Compares two runs for which [`unlike`](fn@unlike) returns `Ok`. The intervals are corrected for `looks`
+    /// comparisons.
     pub fn new(old: &Side, new: &Side, threshold_percent: Option<f64>, looks: usize) -> Self {
         let machines = other_machine(&old.provenance, &new.provenance);
         let (old, new) = (&old.all[..], &new.all[..]);
@@ -174,8 +174,8 @@ fn pairs<'a>(old: &'a [Measurement], new: &'a [Measurement]) -> Vec<(&'a Measure
     old.iter().filter_map(|own| Some((own, counterpart(own, old, new)?))).collect()
 }
 
-/// The counterpart of `own` in the other run. A changed key changes the label. If no label matches, the name of the
-/// structure must match. A match by name requires exactly one unmatched measurement of this name in each run.
+/// Finds the measurement of the same structure, scene and workload in the other run. If no label matches, the names of
+/// the structures are compared. A match by name must be unique in both runs.
 fn counterpart<'a>(own: &Measurement, run: &[Measurement], others: &'a [Measurement]) -> Option<&'a Measurement> {
     fn cell(own: &Measurement) -> (&str, bool, &str, &str) {
         (&own.scene, own.stand_in, &own.workload, &own.role)
@@ -223,7 +223,7 @@ fn wrong(old: &Measurement, new: &Measurement) -> Option<Wrong> {
             let before = format!("{} of {}", old.wrong_hits, old.checked_rays);
             format!("{errors} of {checked} rays have a wrong hit; in the old run {before}")
         }
-        // Different triangle tests may have different hits. Each run checks the hits against its triangle test.
+        // Different triangle tests may return different hits.
         () if old.triangle_test != new.triangle_test => return None,
         () if old.counts.rays == new.counts.rays && old.counts.hits != new.counts.hits => {
             format!("{} of {} rays hit; in the old run {}", new.counts.hits, new.counts.rays, old.counts.hits)

@@ -26,7 +26,7 @@ fn of_folder(path: &Path) -> anyhow::Result<Option<Dataset>> {
     for path in paths {
         match CaseFile::read(&path) {
             Ok(case) => cases.push(case),
-            // A folder may also contain exports.
+            // JSON files that are not cases are ignored, for example exports.
             Err(JournalError::Foreign(_)) => {}
             Err(error) => return Err(error.into()),
         }

@@ -19,7 +19,7 @@ pub fn cautions(comparison: &Comparison) -> Vec<String> {
             .into()
     }));
     cautions.extend(comparison.machines.as_ref().map(|[old, new]| {
-        // A machine has the form `processor (SIMD level)`.
+        // Each string in `machines` has the form `processor (SIMD level)`.
         let cpu = |machine: &String| machine.rsplit_once(" (").map(|(cpu, _)| cpu.to_owned());
         let two = if cpu(old) == cpu(new) { "Two instruction sets" } else { "Two machines" };
         format!("{two}, {old} and {new}: they, rather than the code, may cause a change.")

@@ -78,7 +78,7 @@ fn intervals_decide_the_finding() {
     let limit = Some(libm::log(1.05));
     let cases = [
         (interval(1.06, 1.14), limit, Finding::Regression),
-        // The estimate 1.08 exceeds the threshold, and the interval lies above 1.
+        // The estimate 1.08 exceeds the threshold.
         (interval(1.02, 1.14), limit, Finding::Regression),
         (interval(1.01, 1.08), limit, Finding::Inconclusive),
         (interval(0.98, 1.14), limit, Finding::Inconclusive),
@@ -104,7 +104,7 @@ fn changed_hits_are_wrong() {
         ("3 of 100 rays have a wrong hit; in the old run 0 of 100", &|r| r.wrong_hits = 3),
         ("19 of 1000 rays hit; in the old run 20", &|r| r.counts.hits = 19),
         ("some hits have another t or primitive than in the old run", &|r| r.hit_checksum = Some(0)),
-        // Different numbers of rays or an unknown checksum are not wrong hits.
+        // After these changes, the hits are not comparable.
         ("", &|r| (r.counts.rays, r.counts.hits) = (500, 9)),
         ("", &|r| (r.rays, r.hit_checksum) = (250, Some(0))),
         ("", &|r| r.hit_checksum = None),
@@ -224,9 +224,9 @@ fn the_aa_noise_of_both_runs_widens_the_interval() {
     for (i, by) in [(0, 0.03), (1, -0.03), (4, 0.03), (5, -0.03)] {
         old[i].twin_samples_ns = Some(old[i].samples_ns.iter().map(|ns| twin(ns, by)).collect());
     }
-    // The standard deviation of an A/A ratio is 0.03. The ratio of a structure to two references has 3/4 of the
-    // variance. The mean over two cells halves the variance. For two structures and four degrees of freedom, t is
-    // 3.495.
+    // The standard deviation of an A/A ratio is 0.03. A ratio to the mean of two references has 3/4 of the variance of
+    // an A/A ratio. The mean over two cells halves the variance. The factor 3.495 is the t quantile for four degrees of
+    // freedom, corrected for two structures.
     let alone = 2.0 * 3.495 * 0.03 * libm::sqrt(0.75 / 2.0);
     assert!(before < 1e-9 && (width(&old) / alone - 1.0).abs() < 1e-3, "{before} {} {alone}", width(&old));
 }
@@ -253,7 +253,7 @@ fn twelve_structures_and_several_looks_do_not_make_a_false_alarm() {
         };
         (0..400).filter(alarm).count() as f64 / 4.0
     };
-    // The corrected intervals allow false alarms in 5 % of the comparisons.
+    // The expected rate of false alarms is at most 5 %.
     assert!(alarms(1) <= 7.0, "{} %", alarms(1));
     assert!(alarms(10) <= 2.0, "{} %", alarms(10));
     let comparison = compare(&noise(12, 1), &noise(12, 2), Some(5.0), 10);

@@ -34,8 +34,8 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
     if old == new { Ok(()) } else { Err(Unlike { what: what.into(), old: old.into(), new: new.into(), advice }) }
 }
 
-/// Runs may differ in code, date and settings. Structures that are not references may differ in keys and triangle test.
-/// Without `gate`, the machines may differ if both runs time a common reference.
+/// Returns an error if the runs are not comparable. With `gate`, both runs must be from one machine. Without `gate`,
+/// runs from different machines need a reference with times in both runs.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
     let are_timed = |old: &Measurement, new: &Measurement| old.trace_ns.is_some() && new.trace_ns.is_some();

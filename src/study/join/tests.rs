@@ -56,7 +56,7 @@ fn what_the_first_epoch_found_wrong_has_no_time_anywhere() {
     let one = &cases[0].structures[0].rays[0];
     assert!(one.ns.is_empty() && one.wrong && one.untimed.as_deref() == Some("3 wrong hits on 9 rays"));
     assert_eq!(cases[0].structures[1], given[0].structures[1]);
-    // A study that requires all structures leaves the scene out.
+    // With `whole`, the scene is left out.
     let (cases, JoinedEpochs { failures, .. }) = joined_as(given, true);
     assert!(cases.is_empty() && failures[0].is_wrong_hit(), "{failures:?}");
 }
@@ -66,10 +66,10 @@ fn structures_over_the_exact_test_that_answer_otherwise_are_a_wrong_answer() {
     type Change = ([&'static str; 2], fn(&mut Structure), bool);
     let changes: [Change; 6] = [
         (["exact", "exact"], |_| (), true),
-        // Triangle tests that round are not compared.
+        // Only structures with the exact triangle test are compared.
         (["exact", "moller-trumbore"], |_| (), false),
         (["moller-trumbore", "moller-trumbore"], |_| (), false),
-        // Structures with known defects, wrong hits or other numbers of counted rays are not compared.
+        // `obvhs-bvh2` has known defects, so its hits are not compared.
         (["exact", "exact"], |own| own.name = "obvhs-bvh2".into(), false),
         (["exact", "exact"], |own| own.rays[0].untimed = Some("3 wrong hits on 9 rays".into()), false),
         (["exact", "exact"], |own| own.rays[0].counts.as_mut().unwrap().rays = 10, false),

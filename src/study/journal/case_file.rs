@@ -27,33 +27,33 @@ impl CaseFile {
         if Self::is_case(&value) { Self::of(path, value) } else { Err(JournalError::Foreign(path.into())) }
     }
 
-    /// `value` must be a [case](Self::is_case).
+    /// [`is_case`](Self::is_case) must be true for `value`.
     pub fn of(path: &Path, value: Value) -> Result<Self, JournalError> {
         Dataset::check_schema(path, &value)?;
         let file: Self = serde_json::from_value(value).map_err(|cause| JournalError::damaged(path, &cause))?;
         Ok(Self { path: path.into(), ..file })
     }
 
-    /// Also true for another version of the format.
+    /// Does not check the version of the format.
     pub fn is_case(value: &Value) -> bool {
         ["schema", "provenance", "case"].iter().all(|field| value.get(field).is_some())
     }
 
-    /// Checks before the measurement that the file can be written.
+    /// Checks that the file can be written.
     pub fn place(path: &Path) -> Result<OutputFile, JournalError> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         folder.map_or(Ok(()), fs::create_dir_all).map_err(|cause| JournalError::Write { path: path.into(), cause })?;
         OutputFile::check(path).map_err(|error| unwritable(path, error))
     }
 
-    /// Returns false if the file exists. After an error there is no new file.
+    /// Returns false if the file already exists. After an error, no new file exists.
     ///
     /// # Panics
     ///
-    /// If the epoch cannot be read back.
+    /// If the written JSON value cannot be deserialized.
     pub fn write(file: &OutputFile, provenance: &Provenance, case: &Case, epoch: &Epoch) -> Result<bool, JournalError> {
         let value = json!({ "schema": Dataset::SCHEMA, "provenance": provenance, "case": case, "epoch": epoch });
-        // Infinity and NaN become null in JSON, and null cannot be read back as a number.
+        // In JSON, infinity and NaN become null. Null cannot be read back as a number.
         let read = Self::deserialize(&value);
         assert!(read.is_ok(), "the case does not read back ({:?}): {value}", read.err());
         file.write_new(format!("{value}\n").as_bytes()).map_err(|error| unwritable(&file.path, error))

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use crate::escaped::Escaped as _;
 use crate::output::OutputError;
 
-/// The reason why a journal, a case file or an export cannot be used.
+/// An error while a journal or a case file is read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     #[error("cannot read {}: {cause}: name a folder that a study has written", path.escaped())]
@@ -37,7 +37,7 @@ pub enum JournalError {
 }
 
 impl JournalError {
-    /// Omits line and column, because the file is one long line.
+    /// Omits line and column, because a case file is one long line.
     pub fn damaged(path: &Path, cause: &serde_json::Error) -> Self {
         let text = cause.to_string();
         let problem = text.split(" at line ").next().unwrap_or(&text).to_owned();

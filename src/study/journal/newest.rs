@@ -7,7 +7,7 @@ use crate::report::number::plural;
 use crate::report::words::{each_once, listed};
 use crate::study::{Dataset, JoinedEpochs, Measured, join};
 
-/// One dataset per study, settings, build and machine. The dataset with the most cases is first.
+/// Returns one dataset per combination of study, settings, build and machine. Datasets with more cases come first.
 pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     let mut datasets: Vec<Dataset> = groups(files).iter().map(|group| dataset(group)).collect();
     datasets.retain(|dataset| !dataset.measured.is_empty());
@@ -15,7 +15,7 @@ pub fn datasets(files: Vec<CaseFile>) -> Vec<Dataset> {
     datasets
 }
 
-/// The dataset with the newest file.
+/// Returns the dataset of the group with the newest file.
 pub fn newest(files: Vec<CaseFile>) -> Option<Dataset> {
     let groups = groups(files);
     let date = |group: &&Vec<CaseFile>| group.iter().map(|file| file.provenance.date.clone()).max();
@@ -52,7 +52,7 @@ fn dataset(files: &[CaseFile]) -> Dataset {
             None => newest.push(file),
         }
     }
-    // Epochs with other structures or settings than the newest file of the scene are dropped.
+    // Drop epochs whose structures or settings differ from the newest file of the scene.
     let last = |file: &CaseFile| {
         let own = newest.iter().filter(|other| other.case.is_of_scene(&file.case));
         own.max_by(|a, b| a.provenance.date.cmp(&b.provenance.date))
@@ -84,7 +84,8 @@ fn dataset(files: &[CaseFile]) -> Dataset {
 /// The provenance of the oldest file, with all hosts and the highest load per core.
 pub fn of_all(all: &[&Provenance]) -> Provenance {
     let Some(oldest) = all.iter().min_by_key(|one| &one.date) else { return Provenance::capture(1) };
-    // The recorded load includes the threads of an earlier job on the same host. These threads are subtracted.
+    // The recorded load includes the threads of an earlier job on the same host. `made` estimates the number of
+    // these threads.
     let is_on = |one: &Provenance, host: &str| one.host.split(", ").any(|own| own == host);
     let follows = |one: &Provenance| all.iter().any(|other| is_on(other, &one.host) && other.date < one.date);
     let made = |one: &Provenance| if follows(one) { one.threads as f64 } else { 0.0 };

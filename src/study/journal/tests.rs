@@ -59,7 +59,7 @@ fn cases_of_other_settings_builds_and_machines_lie_side_by_side() {
     assert_eq!(files(&path).unwrap().len(), 4, "nothing was thrown away");
     let host = Provenance { host: "elsewhere".into(), load: Some(9.0), ..provenance() };
     assert!(Journal::open(&path, host, false, &[]).unwrap().get(&own).is_some(), "another host goes on");
-    // The newest file counts, in this run and in the next run.
+    // `get` returns the newest file, in this run and in the next run.
     let mut fresh = Journal::open(&path, provenance(), true, &[]).unwrap();
     assert!(fresh.get(&own).is_none());
     let second = measure(&mut fresh, &own, "2026-01-04");
@@ -118,7 +118,6 @@ fn cases_of_equal_settings_are_a_dataset_and_what_was_measured_again_counts_once
     let found = datasets(read());
     let all: Vec<Vec<String>> = found.iter().map(scenes).collect();
     assert_eq!(all, [vec!["Cube3", "Cube3", "Sphere3"], vec!["Cube9"]]);
-    // `diff` compares the newest groups of two runs.
     let last = newest(read()).unwrap();
     assert_eq!(scenes(&last), ["Cube9"]);
     assert!(last.notes.iter().any(|note| note.starts_with("1 group of cases with other settings")), "{:?}", last.notes);

@@ -1,13 +1,13 @@
-//! Detects a build that takes too long. No code in this process can interrupt a builder of another crate.
+//! Detects a build that takes too long. The build is not interrupted.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// The default has no limit and no thread.
+/// The default value has no limit and no thread.
 #[derive(Default)]
 pub struct BuildWatch {
-    /// Sends the index of a structure to the thread before its build, and `None` after the build.
+    /// Sends the index of a structure before a build. Sends `None` after the build.
     sender: Option<Sender<Option<usize>>>,
 }
 
@@ -27,7 +27,7 @@ impl BuildWatch {
     }
 
     pub fn during<R>(&self, structure: usize, build: impl FnOnce() -> R) -> R {
-        // The thread lives as long as `self`, so sending cannot fail.
+        // Sending fails only if `on_limit` panicked.
         let send = |what| {
             let _ = self.sender.as_ref().map(|sender| sender.send(what));
         };

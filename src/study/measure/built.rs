@@ -8,7 +8,7 @@ use crate::scene::Scene;
 pub struct Built {
     pub choice: Choice,
     pub accel: Box<dyn DynAccel>,
-    /// The median if the build is repeated. A runner measures the build time itself.
+    /// The median build time if the build is repeated.
     pub build_ns: u64,
     /// Peak memory of the first build with a known peak.
     pub peak_bytes: Option<usize>,
@@ -30,8 +30,8 @@ impl Built {
             // until a peak is known.
             let (built, peak) = if known_peak.is_none() { peak_bytes(once) } else { (once(), None) };
             let built = built?;
-            // The counter misses memory of C++ and of other processes. A peak below the size of the structure is
-            // ignored.
+            // The counter misses memory of C++ code and of other processes. So a peak below the size of the structure
+            // is ignored.
             let is_seen = |peak: &usize| built.accel.remote().is_none() && *peak >= built.accel.footprint().total();
             Ok(Self { peak_bytes: known_peak.or(peak.filter(is_seen)), ..built })
         })
@@ -51,7 +51,7 @@ impl Built {
 
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let mesh = Arc::clone(&scene.mesh);
-        // For one thread, processor time excludes the time of other processes on the core.
+        // Processor time excludes the time of other processes.
         let own = CpuClock::Process.on(threads);
         let clock = own.as_ref().map_or(clock, |clock| clock as &dyn Clock);
         let start = clock.now_ns();

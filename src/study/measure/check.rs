@@ -12,7 +12,7 @@ use crate::study::epoch::Checked;
 use crate::study::{Stage, StudyError};
 use crate::validate::{ExpectedHits, Reference, Validation, validate_any_hits, validate_hits, validate_known};
 
-/// The feature of the workload that the structure does not support.
+/// Returns a feature that the workload needs and the structure lacks.
 pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static str> {
     let can = accel.capabilities();
     if workload.query == Query::Any && !can.any_hit {
@@ -21,11 +21,11 @@ pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static st
     workload.rays.iter().find_map(|ray| can.declines(ray))
 }
 
-/// Bounds of the number of checked rays of a workload. A time limit may reduce the number below `FEWEST`.
+/// Bounds on the number of checked rays per workload. A time limit may reduce the number below `FEWEST`.
 const MOST: usize = 1 << 13;
 const FEWEST: usize = 1 << 6;
 
-/// The result depends on no clock, so every run checks the same rays.
+/// The result must be equal in every run.
 fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     if rays <= FEWEST {
         return rays;
@@ -42,9 +42,9 @@ struct Known {
 pub struct Checks<'a> {
     pub scene: &'a Scene,
     pub workloads: &'a [Workload],
-    /// Approximate limit of brute-force triangle tests per workload.
+    /// The approximate maximum number of brute-force triangle tests per workload.
     pub tests: usize,
-    /// Time limit of all checks together.
+    /// Time limit for all checks together.
     pub limit_ns: Option<u64>,
     pub clock: &'a dyn Clock,
 }
@@ -53,8 +53,8 @@ pub struct Checks<'a> {
 const PILOT: usize = 8;
 
 impl Checks<'_> {
-    /// Compares every structure with brute force over the same triangle test. Returns one row per structure with one
-    /// check per workload. A row is `None` if the structure panicked.
+    /// Compares every structure with brute force that uses the same triangle test. Returns one row per structure. A row
+    /// contains one check per workload. A row is `None` if the structure panicked.
     pub fn all<'b>(
         &self,
         built: impl IntoIterator<Item = &'b Built>,
@@ -96,7 +96,7 @@ impl Checks<'_> {
 
     fn of(&self, built: &Built, known: &Known, batches: &[Vec<Ray>]) -> Option<Vec<Checked>> {
         let Known { reference, answers } = known;
-        // For brute force itself, a few rays show that the hits are repeatable.
+        // A few rays suffice to compare brute force with itself.
         let most = if built.choice.entry.name == BRUTE_FORCE { FEWEST } else { MOST };
         let of_batch = |((rays, answers), workload): ((&Vec<Ray>, &Vec<Option<Hit>>), &Workload)| {
             let step = rays.len().div_ceil(most).max(1);
@@ -114,7 +114,7 @@ impl Checks<'_> {
     }
 }
 
-/// Queries of a runner are slow, so only the timed query is checked.
+/// Queries of a remote structure are slow, so only `query` is checked.
 fn validate_remote(accel: &dyn DynAccel, expected: &ExpectedHits, query: Query) -> Validation {
     match query {
         Query::Closest => validate_hits(expected, &accel.closest(expected.rays)),

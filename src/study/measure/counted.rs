@@ -8,7 +8,7 @@ use crate::study::epoch::RayCounts;
 /// The maximum number of counted rays of a workload.
 const RAYS: usize = 16384;
 
-/// The approximate maximum of triangle tests of one count.
+/// The approximate maximum number of triangle tests for the counted rays of a workload.
 const TESTS: u64 = 1 << 24;
 
 const FEW: usize = 512;
@@ -51,8 +51,7 @@ pub fn all(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     RayCounts { rays: rays.len(), hits, distances, ..counts }
 }
 
-/// Some trees have no separate leaf nodes. If triangles were tested but no leaf was entered, the number of leaves is
-/// unknown.
+/// Some trees have no separate leaf nodes. Such a tree counts triangle tests but no leaves.
 fn observed(counts: &Counts, Observed { tests, steps }: Observed) -> RayCounts {
     let sees_leaves = steps && (counts.leaves > 0 || counts.tests == 0);
     RayCounts {

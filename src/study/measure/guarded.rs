@@ -12,7 +12,7 @@ pub fn guarded<R>(query: impl FnOnce() -> R) -> Option<R> {
     caught(query).ok()
 }
 
-/// A pass over rays that survives a panic of the structure. After a panic, the pass traces no rays.
+/// Catches panics of `pass`. After a panic, `pass` traces no rays.
 pub struct Guarded<'a> {
     pass: Pass<'a>,
     levels: usize,

@@ -1,4 +1,4 @@
-//! Counts errors against the exact oracle and times the slowest ray, for the study `accuracy`.
+//! Compares hits with the exact oracle, for the study `accuracy`.
 
 use std::hint::black_box;
 use std::slice;
@@ -32,8 +32,8 @@ impl<'a> Judge<'a> {
         Self { rays, truths }
     }
 
-    /// `ps` is the predicted time per ray in picoseconds. `pairs` pairs of structure and workload share half of
-    /// `budget_ns`. The number of rays depends on no clock, so every run judges the same rays.
+    /// `ps` is the predicted time per ray in picoseconds. `pairs` is the number of pairs of structure and workload. The
+    /// pairs share half of `budget_ns`. The number of rays depends on no clock, so every run judges the same rays.
     pub fn errors(&self, accel: &dyn DynAccel, ps: u64, budget_ns: u64, pairs: usize) -> ErrorCounts {
         let share_ns = (budget_ns / 2 / pairs.max(1) as u64).max(SHORT_NS);
         let all = self.rays.len();
@@ -47,7 +47,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// The number of timings of each ray. The minimum counts, because a disturbance rarely slows every timing.
+/// The number of timings per ray. The minimum is used, because a disturbance rarely slows every timing.
 const PASSES: usize = 3;
 
 /// The time of the slowest ray, ns.
@@ -78,7 +78,7 @@ mod tests {
         assert_eq!(rays, RayKind::Uniform.rays(&scene, 400, 1));
         let judge = Judge::new(&rays, &Oracle::new(&scene.mesh));
         let judged = |ps, budget_ns, pairs| judge.errors(accel.as_ref(), ps, budget_ns, pairs).rays;
-        // A pair gets at least 2 s. A ray takes 1 ps, 10 ms or forever. Then half of 6 s is divided among the pairs.
+        // The budget of a pair is at least 2 s.
         assert_eq!([1, 10_000_000_000, u64::MAX].map(|ps| judged(ps, 0, 1)), [400, 200, 64]);
         assert_eq!([1, 2, 9].map(|pairs| judged(10_000_000_000, 6_000_000_000, pairs)), [300, 200, 200]);
     }

@@ -6,17 +6,16 @@ use crate::report::words::distinct;
 use crate::scene::Scene;
 use crate::study::StudyError;
 
-/// Approximate bytes per triangle of a structure. Finished trees need 50 to 110 bytes.
+/// Approximate memory of a structure, in bytes per triangle.
 const BYTES: u64 = 100;
 
-/// All structures of an epoch exist at once, because the samples of structures alternate.
 pub fn fits(choices: &[Choice], scene: &Scene) -> Result<(), StudyError> {
-    // A twin repeats the label of a structure. The advice in the error does not count twins.
+    // A twin has the label of another structure.
     let twins = choices.len() - distinct(choices.iter().map(|choice| &choice.label)).len();
     fits_into(memory(), [choices.len(), twins], scene.mesh.len(), &scene.name)
 }
 
-/// The number of structures includes twins.
+/// `structures` includes the twins. `most` in the error excludes the twins.
 fn fits_into(
     memory: Option<u64>,
     [structures, twins]: [usize; 2],

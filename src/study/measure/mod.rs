@@ -37,10 +37,7 @@ pub use environment::Environment;
 pub use guarded::{PANICKED, guarded};
 pub use prepared::Prepared;
 
-/// Builds all structures and takes samples. Epoch 0 also checks hits and counts work.
-///
-/// A structure is refused if it cannot be built, panics or changes its hits. A structure with wrong hits gets no time,
-/// except with [`Check::Oracle`]. The failure of a structure is recorded in the epoch and is not an error.
+/// Measures all structures of a case in one epoch.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,
@@ -85,11 +82,11 @@ struct Bench<'a> {
     clock: &'a dyn Clock,
     workloads: Vec<Workload>,
     structures: Vec<Structure>,
-    /// In the order of `structures`. `None` if a build failed.
+    /// In the order of `structures`. An entry is `None` if the structure was not built.
     built: Vec<Option<Built>>,
     /// Checksums of the hits on the timed rays of this epoch.
     checksums: Vec<(Pair, u64)>,
-    /// Blocks of random sizes between structures change the addresses from epoch to epoch.
+    /// Memory blocks of random sizes. The blocks give the structures different addresses in each epoch.
     _blocks: Vec<Vec<u8>>,
 }
 
@@ -126,7 +123,7 @@ impl<'a> Bench<'a> {
             built.push(ready.ok());
         }
 
-        // Secondary rays start at the hits of the tracer.
+        // Secondary rays start at hit points that `tracer` finds.
         let own;
         let tracer =
             match built.iter().flatten().find(|built| built.choice.label == prepared.secondary_ray_structure.label) {
@@ -187,7 +184,7 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// A structure that declines some of the rays is refused, because its error rate would cover fewer rays.
+    /// A structure that declines a workload is refused.
     fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
         progress(Stage::Rays("exact results for all".into()));
         let oracle = Oracle::new(&self.prepared.scene.mesh);
@@ -211,8 +208,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// The numbers of rays and samples are chosen as if no structure had failed or had wrong hits. So the numbers are
-    /// equal in all epochs.
+    /// A failed structure does not change the numbers of rays and samples of other structures.
     fn sample(&mut self, progress: &mut dyn FnMut(Stage)) -> Environment {
         let (clock, settings) = (self.clock, &self.case.settings);
         let plan = SamplePlan {
@@ -294,7 +290,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// Refuses the structure if `result` is `None` (a panic) or the runner has failed.
+/// Refuses the structure after a panic or a failure of the runner. `result` is `None` after a panic.
 fn refuse_unless<T>(structure: &mut Structure, built: &Built, result: Option<T>) -> Option<T> {
     let panicked = result.is_none().then(|| PANICKED.into());
     let Some(reason) = built.accel.remote().and_then(Remote::failure).or(panicked) else { return result };

@@ -1,4 +1,4 @@
-//! The unit of timing is a structure on a workload.
+//! Pairs of one structure and one workload.
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pair {
@@ -7,7 +7,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// All workloads of the first structure come first.
+    /// Sorted by structure, then by workload.
     pub fn all(structures: usize, workloads: usize) -> Vec<Self> {
         (0..structures).flat_map(|structure| (0..workloads).map(move |workload| Self { structure, workload })).collect()
     }

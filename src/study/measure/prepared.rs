@@ -1,4 +1,4 @@
-//! Prepares an epoch and builds the structures.
+//! Prepares and builds the structures of an epoch.
 
 use super::BuildWatch;
 use super::built::Built;
@@ -9,14 +9,14 @@ use crate::study::{Case, Stage, StudyError};
 
 pub struct Prepared {
     pub scene: Scene,
-    /// One per structure of the case, in order.
+    /// One choice per structure, in the order of `Case::structures`.
     pub choices: Vec<Choice>,
     pub secondary_ray_structure: Choice,
     pub threads: Threads,
 }
 
 impl Prepared {
-    /// `scene` is the scene of the case if it is already loaded.
+    /// `scene` is `None` if the scene of the case is not loaded yet.
     pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
         let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
         let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;
@@ -30,8 +30,8 @@ impl Prepared {
     }
 }
 
-/// Each epoch builds in a random order and allocates blocks of random sizes, so addresses differ between epochs.
-/// Returns one result per choice, and the blocks. The blocks must live as long as the structures.
+/// The random build order and the random blocks give structures different addresses in each epoch.
+/// The results are in the order of the choices. The returned blocks must live as long as the structures.
 pub fn build_all(
     case: &Case,
     prepared: &Prepared,
@@ -45,7 +45,7 @@ pub fn build_all(
     let (mut built, mut blocks) = (vec![], vec![]);
     for i in random.shuffled(choices.len()) {
         progress(Stage::Build((&choices[i].label).into()));
-        // Small blocks shift later blocks on the heap. Large blocks shift mapped pages.
+        // A small block moves later heap allocations. A large block moves later page mappings.
         blocks.push(vec![0; 16 * (1 + random.below(1 << 12))]);
         blocks.push(vec![0; (256 << 10) + 4096 * random.below(64)]);
         let one = match &case.structures[i].skipped {

@@ -1,6 +1,6 @@
-//! Predicts the cost of a ray from counts of work.
+//! Predicts the time per ray from counts of traversal steps and tested blocks of triangles.
 //!
-//! The prediction depends on no clock, so every epoch times the same number of rays.
+//! The prediction uses no clock, because the prediction must be equal in all epochs.
 
 use rayon::prelude::*;
 
@@ -14,20 +14,24 @@ use crate::measure::median;
 use crate::request::BRUTE_FORCE;
 use crate::scene::Workload;
 
-/// Nanoseconds per ray, per inner node or leaf entered, and per block of triangles tested. The numbers are rounded from
-/// a regression (papers/TUNING.md). A typical error of a factor of 1.5 is tolerable, because numbers of rays differ by
-/// factors of four.
+// The following three constants are approximate (papers/TUNING.md).
+
+/// Fixed nanoseconds per ray.
 const RAY_NS: f64 = 20.0;
+/// Nanoseconds per entered inner node or leaf.
 const STEP_NS: f64 = 15.0;
+/// Nanoseconds per tested block of triangles.
 const BLOCK_NS: f64 = 8.0;
 
-/// The slowdown of an unoptimised build.
+/// The slowdown factor if the crate is compiled without optimisation.
 const UNOPTIMISED: f64 = if cfg!(debug_assertions) { 12.0 } else { 1.0 };
 
-/// Assumed steps per ray if no structure counts steps. A tree over a hundred thousand triangles has about this number.
+/// Assumed steps per ray if no tree counts its steps.
 const STEPS: f64 = 12.0;
 
-/// Picoseconds per ray of each case. An unknown cost is the median on the same workload, without brute force.
+/// Predicted picoseconds per ray, one value per case.
+///
+/// A case without a prediction gets the median prediction for its workload. The median excludes brute force.
 pub fn picoseconds(cases: &[Pair], built: &[Option<&Built>], workloads: &[Workload]) -> Vec<u64> {
     let predicted: Vec<Option<f64>> = cases.par_iter().map(|case| predicted(case, built, workloads)).collect();
     let is_brute = |case: &Pair| built[case.structure].is_some_and(|built| built.choice.entry.name == BRUTE_FORCE);
@@ -83,7 +87,7 @@ mod tests {
         assert_eq!(picoseconds(&cases, &built, &workloads), costs, "costs do not depend on a clock");
         assert!(picoseconds(&[], &built, &workloads).is_empty());
 
-        // A failed build has the median cost of the two other trees.
+        // A structure that failed to build gets the median cost of `sah-kd` and `sah-bvh`.
         built[1] = None;
         let without = picoseconds(&cases, &built, &workloads);
         assert!(without[1].abs_diff(costs[2].midpoint(costs[3])) <= 1, "{without:?} {costs:?}");

@@ -39,7 +39,9 @@ pub fn record_check(rays: &mut Rays, check: Checked, scene: &OsStr, built: &Buil
     rays.checked = Some(check);
 }
 
-/// Wrong hits on one workload drop the times on all workloads.
+/// Removes all times of a structure that has wrong hits on at least one workload.
+///
+/// A structure with a known defect keeps its times on workloads without wrong hits.
 pub fn drop_times_of_wrong_tree(structure: &mut Structure) {
     let Some(wrong) = structure.rays.iter().find(|rays| rays.wrong) else { return };
     if known_defect(&structure.name).is_none() {

@@ -29,14 +29,14 @@ pub struct Flawed {
 pub enum Flaw {
     #[default]
     None,
-    /// Loses the hits of about half of the rays, always of the same rays.
+    /// Loses the hits of about half of the rays.
     Lossy,
-    /// Loses all hits once [`HAS_TURNED`] is set.
+    /// Loses all hits after `HAS_TURNED` is set.
     Turning,
     Panicking,
-    /// The builder panics over every mesh with triangles.
+    /// The builder panics on every mesh that has triangles.
     Unbuildable,
-    /// The builder panics over the empty mesh.
+    /// The builder panics on an empty mesh.
     Rootless,
 }
 
@@ -119,7 +119,7 @@ fn measured(case: &Case, progress: &mut dyn FnMut(Stage)) -> Result<Measured, St
 }
 
 fn run(specs: &[&str]) -> Result<Dataset, StudyError> {
-    // The cube has no mirrors, so it has no mirror rays.
+    // The scene has no mirrors, so the results lack the mirror workload.
     let case = case("cube", specs, &[WorkloadKind::Primary, WorkloadKind::Mirror, WorkloadKind::Shadow]);
     let case = Case { structures: with_twin(case.structures.clone()), ..case };
     let epochs = [0, 1].map(|epoch| measured(&Case { epoch, ..case.clone() }, &mut |_| ()));
@@ -150,7 +150,7 @@ fn a_right_structure_has_a_time_and_the_hits_of_all_others() {
         (Some(12.0), None),
         "what is not observed is unknown"
     );
-    // The twin belongs to the first structure that is not slow.
+    // `with_twin` treats `brute-force` and `median-kd` as slow, so `flawed` has the twin.
     let twins: Vec<bool> = all.iter().map(|own| own.twin_samples_ns.is_some()).collect();
     assert_eq!(twins, [false, false, false, false, true, true]);
 }
@@ -160,8 +160,9 @@ fn a_wrong_structure_has_errors_and_no_time() {
     let all = measurements(&run(&["brute-force", "flawed:flaw=lossy"]).unwrap());
     let (wrong, right): (Vec<&Measurement>, Vec<&Measurement>) =
         all.iter().partition(|r| r.label == "flawed:flaw=lossy");
-    // No shadow ray hits a single cube, so all shadow results are right. But a wrong tree has no time on any workload.
+    // No shadow ray hits the cube, so all shadow results are correct.
     assert_eq!(wrong.iter().map(|r| r.is_disqualified()).collect::<Vec<_>>(), [true, false]);
+    // A structure with wrong hits and no known defect has no time on any workload.
     assert!(wrong.iter().all(|r| r.trace_ns.is_none() && r.mrays_per_s.is_none() && r.samples_ns.is_empty()));
     assert!(right.iter().all(|r| r.label == "brute-force" && r.trace_ns.is_some()));
 }
@@ -183,7 +184,7 @@ fn a_structure_with_other_answers_in_the_next_round_is_refused_and_the_others_go
 
 #[test]
 fn a_failed_build_does_not_change_other_measurements() {
-    // Brute force is slow compared with the median of three structures, but not with the median of two.
+    // Brute force would get more rays if the skipped structure were ignored.
     let case = case("torus", &["sah-kd", "brute-force", "flawed"], &[WorkloadKind::Primary]);
     let epochs = [0, 1].map(|epoch| {
         let mut case = Case { epoch, ..case.clone() };

@@ -1,6 +1,6 @@
-//! Checks the hits on all timed rays against another tree.
+//! Compares the hits of a structure on all timed rays with the hits of another tree.
 //!
-//! Brute force judges the rays on which structure and tree differ.
+//! If the structure and the tree disagree on rays, brute force judges some of these rays.
 
 use std::borrow::Cow;
 
@@ -19,15 +19,15 @@ use crate::study::epoch::Checked;
 use crate::triangle::{Exact, TriangleTest};
 use crate::validate::{ExpectedHits, Kind, Reference, differences, validate_any_hits, validate_hits};
 
-/// The minimum number of disputed rays of a workload that brute force judges.
+/// Brute force judges all disputed rays if their number is at most `FEWEST`.
 const FEWEST: usize = 64;
 
 pub struct TimedCheck<'a> {
     pub scene: &'a Scene,
     pub workloads: &'a [Workload],
-    /// The number of planned epochs. Different epochs time different rays.
+    /// The number of planned epochs.
     pub epochs: usize,
-    /// Approximate limit of brute-force triangle tests per workload.
+    /// Approximate limit for the triangle tests of brute force in one check.
     pub tests: usize,
     references: Vec<TreeHits>,
 }
@@ -35,12 +35,10 @@ pub struct TimedCheck<'a> {
 struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
-    /// Structures with the triangle test of this tree must return equal bits. Other structures must agree within
-    /// rounding.
     tree: Reference,
-    /// Brute force with the triangle test of the structure, or with `exact` if the suite lacks this test.
+    /// Brute force with the triangle test of the checked structure, or with `exact`.
     judge: Reference,
-    /// The hits of the tree by workload and ray. The outer `Option` is `None` until the ray is traced.
+    /// Hits of the tree, indexed by workload and ray. The outer `Option` is `None` if the ray is not traced yet.
     hits: Vec<Vec<Option<Option<Hit>>>>,
 }
 
@@ -49,9 +47,8 @@ impl<'a> TimedCheck<'a> {
         Self { scene, workloads, epochs, tests, references: vec![] }
     }
 
-    /// `rays` is the number of timed rays per epoch, and `checksum` covers the hits of epoch 0. A structure and a tree
-    /// with the same triangle test must return equal bits. Returns `None` if the
-    /// structure panics.
+    /// `rays` is the number of timed rays per epoch. `checksum` covers the hits on the timed rays of epoch 0.
+    /// Returns `Ok(None)` if the structure panics.
     pub fn check(
         &mut self,
         built: &Built,
@@ -81,8 +78,7 @@ impl<'a> TimedCheck<'a> {
         Ok(guarded(|| self.judged(built, &self.references[place], &chosen, &expected, &found)))
     }
 
-    /// Returns the index of a tree with the triangle test of `built`, or else with `exact`. The tree is never the
-    /// structure itself.
+    /// Returns the index of a tree in `references`. A structure is never compared with itself.
     fn reference(&mut self, built: &Built) -> Result<usize, BuildError> {
         let own_test = built.choice.triangle_test();
         let name = if built.choice.entry.name == "sah-bvh" { "sah-hybrid" } else { "sah-bvh" };
@@ -101,7 +97,7 @@ impl<'a> TimedCheck<'a> {
         Ok(self.references.len() - 1)
     }
 
-    /// The tree may be wrong too, so brute force traces as many disputed rays as affordable.
+    /// Brute force decides about disputed rays, because the tree may be wrong.
     fn judged(
         &self,
         built: &Built,
@@ -144,7 +140,7 @@ impl<'a> TimedCheck<'a> {
     }
 }
 
-/// Indices of the rays that at least one of `epochs` epochs times. A sample has `rays` rays.
+/// Indices of all rays in the samples of the first `epochs` epochs. Each sample has `rays` rays.
 fn timed(all: usize, rays: usize, epochs: usize) -> Vec<usize> {
     let level = level_of(all, rays).unwrap_or(0);
     let mut timed: Vec<usize> = (0..epochs.max(1)).flat_map(|epoch| tiles(all, level, epoch)).flatten().collect();
@@ -164,7 +160,6 @@ impl TreeHits {
     }
 }
 
-/// The structure receives rays in batches, as in the timing.
 fn traced(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> QueryResults {
     let chunk = if accel.remote().is_some() { rays.len().max(1) } else { TILE };
     let mut results = QueryResults::misses(query, rays.len());

@@ -12,7 +12,7 @@ use crate::measure::{
 use crate::registry::Choice;
 use crate::scene::Workload;
 
-/// A sample gets fewer rays if it takes more than this multiple of its budget.
+/// A sample may take this multiple of its time budget.
 const SLACK: u64 = 8;
 
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -27,21 +27,20 @@ pub enum SampleFailure {
 pub struct Timing<'a> {
     pub cases: &'a [Pair],
     pub choices: &'a [Choice],
-    /// In the order of `choices`. `None` if a build failed.
+    /// In the order of `choices`. An entry is `None` if the structure was not built.
     pub built: &'a [Option<&'a Built>],
     /// No workload is empty.
     pub workloads: &'a [Workload],
     pub threads: &'a Threads,
     pub clock: &'a dyn Clock,
-    /// Measured times reduce the numbers of rays if the prediction is far off. Runners always use measured times.
+    /// Whether a measured time may reduce the number of rays of a structure without a runner.
     pub by_clock: bool,
 }
 
 impl Timing<'_> {
-    /// Failed builds and declined workloads are included. So a failure in one epoch does not change the number of rays
-    /// of other cases.
+    /// A failed build must not change the numbers of rays of other cases.
     pub fn allot(&self, plan: &SamplePlan) -> Allotment {
-        // A twin has the label of its structure. Cases with equal labels are timed on equal numbers of rays.
+        // A structure and its twin have the same label. The twin must get as many rays as the structure.
         let label = |case: &Pair| (case.workload, &self.choices[case.structure].label);
         let group =
             |case: &Pair| self.cases.iter().position(|other| label(other) == label(case)).expect("it is among them");
@@ -51,10 +50,7 @@ impl Timing<'_> {
         allot(&self.cases.iter().zip(costs).map(cost).collect::<Vec<_>>(), plan)
     }
 
-    /// Takes interleaved samples. A fast structure also has times on the rays of each slower structure on the workload.
-    ///
-    /// The measured time of a runner chooses the number of rays, so epochs may differ by a factor of four. All
-    /// structures on the workload are therefore also timed on a quarter of the runner's rays.
+    /// Takes interleaved samples.
     pub fn take(
         &self,
         allotment: &Allotment,
@@ -86,8 +82,6 @@ impl Timing<'_> {
         let is_remote = |built: &Built| built.accel.remote().is_some();
         let is_by_clock = |i: usize| built(i).is_some_and(|built| self.by_clock || is_remote(built));
         for (&i, pass) in timed.iter().zip(&mut passes).filter(|(i, _)| is_by_clock(**i)) {
-            // A runner must fit into its share of the budget. Structures in this process may exceed the share by the
-            // factor `SLACK`.
             let most_ns = if built(i).is_some_and(is_remote) { *share_ns } else { SLACK * share_ns };
             levels[i] = level_by_clock(&Stopwatch::new(clock), pass.as_mut(), levels[i], most_ns);
         }
@@ -110,18 +104,19 @@ impl Timing<'_> {
 
 struct TimedRays {
     workload: usize,
-    /// Rays of the workload.
+    /// Number of rays in the workload.
     all: usize,
     level: usize,
     is_by_clock: bool,
 }
 
-/// Prepares samples for the rays of `case` and for the rays of each slower case on the workload.
+/// Returns empty samples of `case`. Each part covers the rays of a slower case on the same workload.
 fn empty_samples(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     let own = Samples::none(case.all, case.level);
     let mut fewer = vec![];
     for other in cases.iter().filter(|other| other.workload == case.workload) {
         fewer.push(rays_at(other.all, other.level));
+        // Another epoch may use the next level.
         if other.is_by_clock && other.level < last_level(other.all) {
             fewer.push(rays_at(other.all, other.level + 1));
         }
@@ -129,7 +124,7 @@ fn empty_samples(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     fewer.retain(|&rays| rays < own.rays);
     fewer.sort_unstable_by(|a, b| b.cmp(a));
     fewer.dedup();
-    // A clock may choose different rays in each epoch, so the checksum covers a fixed set of rays.
+    // The checksum must cover the same rays in every epoch.
     let checksum_level = if case.is_by_clock { Some(pilot_level(case.all)) } else { own.checksum_level };
     Samples { checksum_level, parts: fewer.into_iter().map(|rays| SubsetSamples { rays, ns: vec![] }).collect(), ..own }
 }
@@ -156,7 +151,7 @@ mod tests {
     fn a_program_and_all_that_it_is_compared_with_are_timed_on_the_next_level_as_well() {
         let cases = [(0, 0, false), (0, 1, true), (0, 3, false), (1, 0, false)];
         assert_eq!(parts(&cases), [vec![16_384, 4096, 1024], vec![4096, 1024], vec![], vec![]]);
-        // The last level has no next level.
+        // Level 5 has no next level.
         assert_eq!(parts(&[(0, 0, false), (0, 5, true)]), [vec![64], vec![]]);
         let program = TimedRays { workload: 0, all: 65_536, level: 1, is_by_clock: true };
         assert_eq!(empty_samples(&program, &[]).checksum_level, Some(5));

@@ -1,4 +1,4 @@
-//! Findings about how well the source report is reproduced.
+//! Findings about the reproduction of the source report.
 
 use super::original::{CROWDED, DEFAULT, MAIN};
 use super::replication::{BRUTE, Replicated, mean};
@@ -15,7 +15,7 @@ pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
         |key: &str, own: &Replicated, value| Finding::number(format!("{key}-{}", slug(own.report.scene)), value);
     findings.extend(hard.iter().map(|own| number("hard", own, own.faster())));
     let difference = |own: &Replicated| Estimate::exact(own.total() as f64 - own.report.rays as f64);
-    // The creatures of Starters must not be copied. This project uses different creatures, so the ray counts differ.
+    // Our scene Starters contains our own creatures, so the ray counts differ from the report.
     let theirs = main.iter().filter(|own| own.report.scene != "Starters");
     findings.extend(theirs.map(|own| number("rays", own, difference(own))));
     findings.extend(t_prime(main).map(|factor| Finding::number("t-prime", factor)));
@@ -44,7 +44,7 @@ fn faster(hard: &[Replicated]) -> Option<Finding> {
     Some(Finding::new("hard", sentence).with_value(mean))
 }
 
-/// The tolerance of ray counts. A few hits at triangle edges may differ.
+/// The tolerance of ray counts, in rays.
 const CLOSE: u64 = 2;
 
 fn rays(main: &[Replicated]) -> Option<Finding> {
@@ -61,7 +61,8 @@ fn rays(main: &[Replicated]) -> Option<Finding> {
     (!main.is_empty()).then(|| Finding::new("rays", sentence))
 }
 
-/// Largest `t'` of brute force / smallest `t'`, over the scenes of [`MAIN`].
+/// The ratio of the largest to the smallest `t'` of brute force on the scenes of [`MAIN`]. `t'` is seconds / (rays x
+/// triangles).
 fn t_prime(main: &[Replicated]) -> Option<Estimate> {
     let all: Vec<Estimate> = main.iter().filter_map(|own| own.t_prime(BRUTE)).collect();
     let by_size = |one: &&Estimate, other: &&Estimate| one.estimate.total_cmp(&other.estimate);
@@ -69,7 +70,7 @@ fn t_prime(main: &[Replicated]) -> Option<Estimate> {
     (all.len() == MAIN.len()).then(|| most.over(*least))
 }
 
-/// The scenes in the expected order, largest improvement first. The first two are not compared with each other.
+/// The scenes by expected improvement, from largest to smallest. Torus and Sphere have the same rank.
 const ORDER: &str = "Torus Sphere Teapot Metallic Cornellbox Starters Billards Infinitycandy Cube";
 
 fn order(main: &[Replicated]) -> Option<Finding> {

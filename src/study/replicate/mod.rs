@@ -1,7 +1,7 @@
-//! `replicate` reproduces the tables of the source report and tests its conclusion.
+//! `replicate` reproduces the tables and tests the conclusion of the source report.
 //!
-//! The report times all rays of a picture on another machine. So only ratios of seconds are comparable with this study.
-//! `t'` is seconds / (rays x triangles).
+//! The source report used another machine, so only ratios of seconds are comparable. `t'` is seconds / (rays x
+//! triangles).
 
 mod findings;
 mod original;
@@ -32,11 +32,11 @@ pub const STUDY: Study = Study {
     report,
 };
 
-// The defaults of epochs, runs and budget in seconds. All claims are judged together, which needs many epochs.
+// The const parameters are the defaults of `--epochs`, `--runs` and `--budget` (in seconds).
 type Options = Measuring<8, 3, 5>;
 
-/// Secondary rays start at the hits of this structure. The triangle test is in single precision, as in the report's
-/// program.
+/// Secondary rays start at the hits of this structure. The triangle test of this structure is in single precision, as
+/// in the source report.
 const GUIDE: &str = "sah-kd:test=moller-trumbore";
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {

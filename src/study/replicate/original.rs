@@ -1,6 +1,6 @@
 //! The numbers in the source report.
 //!
-//! Each time in the report is from a single run.
+//! Each duration in the report is from a single run.
 
 use crate::request::REPORT_TREE;
 
@@ -8,15 +8,15 @@ use crate::request::REPORT_TREE;
 pub struct Row {
     pub scene: &'static str,
     pub triangles: usize,
-    /// All rays of the picture, or only the primary rays on a hard scene.
+    /// All rays of the picture. On a hard scene, only the primary rays.
     pub rays: u64,
-    /// Seconds with the setting [`DEFAULT`] of the tree, without the build.
+    /// Seconds of the report's tree with the setting [`DEFAULT`], without the build.
     pub tree_s: f64,
-    /// `None` on a hard scene, like `improvement`. The improvement is brute force / tree, as printed. The printed
-    /// improvement of Teapot is wrong.
+    /// Seconds of brute force. `None` on a hard scene.
     pub brute_s: Option<f64>,
+    /// `brute_s / tree_s` as printed in the report. The printed value of Teapot is wrong.
     pub improvement: Option<f64>,
-    /// Seconds of the build. `None` on an easy scene.
+    /// Seconds of the build. `None` on the scenes of [`MAIN`].
     pub build_s: Option<f64>,
 }
 
@@ -47,18 +47,19 @@ pub const HARD: [Row; 3] = [
     hard("Sponza", 174_840, 239.7165, 3.628),
 ];
 
-/// A setting of the report's tree, and the seconds on the scenes of [`MAIN`], in order.
+/// A setting of the report's tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweepRow {
-    /// A node with fewer triangles is a leaf.
+    /// A node with fewer than `leaf` triangles is a leaf.
     pub leaf: u32,
     /// A split is discarded if at least this fraction of the triangles is in both children.
     pub threshold: f32,
+    /// Seconds on the scenes of [`MAIN`], in the order of [`MAIN`].
     pub seconds: [f64; 9],
 }
 
-/// The columns Teapot and Torus are swapped in the report and corrected here. The seconds of 100 / 0.7 differ from the
-/// main table, because all times are single runs.
+/// The report swaps the columns Teapot and Torus. `SWEEP` has the corrected columns. [`MAIN`] has the seconds of
+/// another run with the setting [`DEFAULT`].
 pub const SWEEP: [SweepRow; 6] = [
     sweep(25, 0.4, [0.527, 1.405, 2.734, 6.897, 138.3193, 54.305, 65.218, 57.408, 50.229]),
     sweep(50, 0.5, [0.543, 1.319, 3.157, 7.730, 132.452, 45.076, 61.802, 54.773, 46.709]),
@@ -68,10 +69,10 @@ pub const SWEEP: [SweepRow; 6] = [
     sweep(150, 0.9, [0.522, 1.3248, 2.697, 7.637, 101.9409, 52.054, 61.10, 61.996, 61.777]),
 ];
 
-/// The setting of the main table. It is the default of the structure [`REPORT_TREE`].
+/// The default setting of the structure [`REPORT_TREE`].
 pub const DEFAULT: SweepRow = SWEEP[4];
 
-/// The tree hardly separates the triangles of this scene. The setting is expected to need more tests than brute force.
+/// A scene and a setting of the report's tree. The tree is expected to need more triangle tests than brute force.
 pub const CROWDED: (&str, SweepRow) = ("Infinitycandy", SWEEP[2]);
 
 const fn sweep(leaf: u32, threshold: f32, seconds: [f64; 9]) -> SweepRow {
@@ -113,7 +114,7 @@ mod tests {
     fn the_printed_improvements_and_t_primes_follow_from_the_seconds() {
         for row in &MAIN {
             let (brute_s, improvement) = row.brute_s.zip(row.improvement).unwrap();
-            // The last two digits of Teapot are a misprint. All other improvements are truncated or rounded.
+            // The printed improvement of Teapot is wrong. All other improvements are truncated or rounded.
             let tolerance = if row.scene == "Teapot" { 0.0045 } else { 0.0011 };
             assert!((brute_s / row.tree_s - improvement).abs() < tolerance, "{row:?}");
         }

@@ -1,4 +1,4 @@
-//! The measured scenes of the report.
+//! The measurements of the scenes in the source report.
 
 use super::original::{DEFAULT, HARD, MAIN, Row};
 use crate::accel::Query;
@@ -8,10 +8,9 @@ use crate::study::epoch::{Rays, Structure};
 use crate::study::epoch_medians::{epoch_medians, ratio, values};
 use crate::study::{Dataset, Epoch};
 
-/// Roles of structures. Each setting of the sweep has a separate role.
 pub const BRUTE: &str = "brute force";
 pub const SAH: &str = "sah";
-/// The role of the report's tree on a hard scene. On an easy scene, the tree has the role of a sweep setting.
+/// The role of the report's tree on a hard scene. On other scenes, the tree has the role of [`DEFAULT`].
 pub const TREE: &str = "tree";
 
 pub struct Replicated<'a> {
@@ -19,7 +18,7 @@ pub struct Replicated<'a> {
     epochs: Vec<&'a Epoch>,
 }
 
-/// The hard scenes are last.
+/// The scenes of [`HARD`] follow the scenes of [`MAIN`].
 pub fn replicated(dataset: &Dataset) -> Vec<Replicated<'_>> {
     let scenes = dataset.scenes();
     let of = |report: &'static Row| {
@@ -29,7 +28,7 @@ pub fn replicated(dataset: &Dataset) -> Vec<Replicated<'_>> {
     MAIN.iter().chain(&HARD).flat_map(of).collect()
 }
 
-/// The geometric mean over the hard scenes of the speedups by the SAH tree.
+/// The geometric mean of [`Replicated::faster`] over the hard scenes.
 pub fn mean(hard: &[Replicated]) -> Option<Estimate> {
     let ratios = |other: &str| hard.iter().map(|own| own.log_ratios(other)).collect::<Vec<_>>();
     let noise = AaNoise::new(&ratios(TWIN)).of_mean(hard.len());
@@ -66,8 +65,8 @@ impl Replicated<'_> {
         epoch.structures.iter().find(|own| own.role == role)
     }
 
-    /// ln(seconds) for all rays, by epoch and role. The times are extrapolated from the rays on which all `roles` were
-    /// timed.
+    /// ln(seconds) for all rays. The indices are the epoch and the place in `roles`. The seconds are extrapolated from
+    /// rays that were timed for all `roles`.
     fn medians(&self, roles: &[&str]) -> Vec<Vec<f64>> {
         let of_epoch = |epoch: &&Epoch| {
             let in_role =
@@ -78,7 +77,7 @@ impl Replicated<'_> {
         epoch_medians(self.epochs.iter().map(of_epoch).collect())
     }
 
-    /// ln(time of the report's tree / time of the structure with the role `other`), by epoch.
+    /// ln(seconds of the report's tree / seconds of `other`). Each epoch has one value.
     fn log_ratios(&self, other: &str) -> Vec<Vec<f64>> {
         let logs = values(&self.medians(&[TREE, other]), |logs| logs[0] - logs[1]);
         logs.into_iter().map(|log| vec![log]).collect()
@@ -93,7 +92,7 @@ impl Replicated<'_> {
         ratio(&self.medians(&[one, other]), |logs| logs[0] - logs[1], self.noise().of_ratio())
     }
 
-    /// The geometric mean over the epochs of the seconds for the picture.
+    /// Seconds for the picture, as a geometric mean over the epochs.
     pub fn seconds(&self, role: &str) -> Option<Estimate> {
         self.structure(self.first(), role)?;
         Some(ratio(&self.medians(&[role]), |logs| logs[0], self.noise().weighted(&[1.0])))
@@ -114,7 +113,7 @@ impl Replicated<'_> {
         Some(median(&builds.collect::<Vec<_>>())? * 1e-9)
     }
 
-    /// Triangle tests per ray and triangle.
+    /// Triangle tests / (rays x triangles).
     pub fn tests(&self, role: &str) -> Option<f64> {
         let rays = &self.structure(self.first(), role)?.rays;
         let tests: u64 = rays.iter().map(|rays| rays.counts?.whole_tests).sum::<Option<_>>()?;
@@ -130,7 +129,8 @@ impl Replicated<'_> {
     }
 }
 
-/// ln(seconds) for all rays, by round. The times are extrapolated from the rays on which all `beside` were timed.
+/// ln(seconds) for all rays. Each round has one value. The seconds are extrapolated from rays that were timed for all
+/// structures in `beside`.
 fn log_seconds(structure: &Structure, beside: &[&Structure]) -> Vec<f64> {
     let seconds = |(kind, rays): (usize, &Rays)| {
         let common = beside.iter().map(|other| other.rays[kind].rays).min().unwrap_or(rays.rays);

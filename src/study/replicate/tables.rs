@@ -4,7 +4,7 @@ use super::original::SWEEP;
 use super::replication::{BRUTE, Replicated, SAH, TREE};
 use crate::report::{Cell, Table, Value};
 
-/// `all` contains the `main` scenes, then the `hard` scenes.
+/// `all` is `main` followed by `hard`.
 pub fn tables(all: &[Replicated], main: &[Replicated], hard: &[Replicated]) -> Vec<Table> {
     let note = "~: extrapolated from a subset of the rays. improvement: brute-force / median-kd; times faster: \
                 median-kd / sah-kd; both from times of one round.";
@@ -42,7 +42,7 @@ fn seconds(own: &Replicated, role: &str) -> Cell {
     Cell::from(seconds).sampled(own.is_sampled(role) == Some(true))
 }
 
-/// The heading of a column, the name in CSV tables, and the cell of a scene.
+/// The heading, the CSV name and the cell function of a column.
 type ReplicatedColumn = (&'static str, &'static str, fn(&Replicated) -> Cell);
 
 const SECONDS: [ReplicatedColumn; 12] = [

@@ -1,4 +1,4 @@
-//! Checks tables and findings on epochs with known times.
+//! Checks the tables and findings of invented epochs.
 
 use super::*;
 use crate::accel::Query;
@@ -8,8 +8,8 @@ use crate::study::epoch::Rays;
 use crate::study::epoch::tests::{example, rays};
 use crate::study::{Measured, case};
 
-/// The scene has 100 triangles, 1000 closest-hit rays and 500 shadow rays. Each role has a time in nanoseconds per ray.
-/// One of the rounds is slow.
+/// The scene has 100 triangles, 1000 closest-hit rays and 500 shadow rays. `roles` contains the nanoseconds per ray of
+/// each role. The second round is slow.
 fn scene(name: &str, epochs: usize, roles: &[(&str, u64)]) -> Vec<Measured> {
     let one = |number: usize| {
         let ns: Vec<Vec<u64>> = roles.iter().map(|(_, t)| [1000, 1300, 1000].map(|round| round * t).into()).collect();
@@ -54,7 +54,7 @@ fn the_conclusion_is_the_mean_of_the_hard_scenes() {
     }
     let sentence = &report.finding("hard").unwrap().sentence;
     assert!(sentence.contains("speedup 8.00 on Dragon and 2.00 on Lucy; geometric mean"), "{sentence}");
-    // 1000 and 500 rays at 0.8 microseconds per ray.
+    // 1500 rays at 0.8 microseconds per ray.
     let dataset = dataset(scenes.concat());
     let dragon = &replicated(&dataset)[0];
     let (seconds, t_prime) = (dragon.seconds(TREE).unwrap(), dragon.t_prime(TREE).unwrap());
@@ -80,8 +80,8 @@ fn what_is_said_of_the_hard_scenes_is_what_was_found() {
         let sentence = report.sentences().next().unwrap();
         assert!(sentence.starts_with(&format!("The SAH tree traces primary rays {phrase}")), "{sentence}");
     }
-    // Twins with different times widen the interval. This run and a rerun each add the noise of one A/A ratio. With
-    // three epochs, Student's t is 4.303.
+    // A twin with a different time widens the interval. Student's t for two degrees of freedom is 4.3027. The factor
+    // sqrt(2) accounts for the noise of a rerun.
     let width = |twin: u64| {
         let faster = value(&of(&[hard("Sponza", 3, [800, 100, twin])]), "hard-sponza").unwrap();
         libm::log(faster.high().unwrap() / faster.low().unwrap())
@@ -110,7 +110,7 @@ fn an_easy_scene_has_its_improvement_its_sweep_and_its_rays() {
 
 #[test]
 fn claims_about_all_scenes_are_judged_with_all_scenes() {
-    // The expected order, except that Cube improves more than all other scenes.
+    // Cube has the largest gain. All other gains have the expected order.
     let gains = [90, 50, 60, 40, 3, 9, 2, 20, 6];
     let mut scenes: Vec<Vec<Measured>> = MAIN.iter().zip(gains).map(|(row, gain)| main(row.scene, gain)).collect();
     for Measured { epoch, .. } in &mut scenes[6] {
@@ -120,11 +120,11 @@ fn claims_about_all_scenes_are_judged_with_all_scenes() {
         }
     }
     let report = of(&scenes);
-    // The tests of two workloads, divided by 1500 rays and 100 triangles.
+    // (2 x 75,000 tests) / (1500 rays x 100 triangles) = 1.0.
     let exact = |x: f64| Some(Estimate::exact(x));
     assert_eq!((value(&report, "crowded"), value(&report, "crowded-50")), (exact(1.0), exact(2.4)));
     assert!((value(&report, "t-prime").unwrap().estimate - 45.0).abs() < 1e-9);
-    // The eight pairs with Cube are reversed, among 35 compared pairs of scenes.
+    // All eight pairs with Cube are reversed. The number of compared pairs is 35.
     let order = value(&report, "order").unwrap();
     assert!((order.estimate - (1.0 - 16.0 / 35.0)).abs() < 1e-12, "{order:?}");
     let sentence = &report.finding("order").unwrap().sentence;

@@ -5,8 +5,9 @@ use crate::report::words::each_once;
 use crate::study::Dataset;
 use crate::study::measurement::{Measurement, build_noise, measurements, of_scene, trace_noise};
 
-/// Labels of a case name the family of the mesh and the level of the icosphere.
+/// The key of a case label. The value of the label is [`SPHERES`] or [`MESHES`].
 pub const FAMILY: &str = "family";
+/// The key of a case label. The value of the label is the subdivision level of an icosphere.
 pub const LEVEL: &str = "level";
 
 pub const SPHERES: &str = "icospheres";
@@ -21,11 +22,11 @@ pub struct Growth {
     pub family: &'static str,
     pub label: String,
     pub workload: String,
-    /// Ordered by number of triangles.
+    /// Sorted by the number of triangles.
     pub points: Vec<Point>,
     /// The exponent of the time per ray. Every exponent is `None` if the fit has fewer than three meshes.
     pub time: Option<Estimate>,
-    /// Like `time`, but over the meshes of at most [`LEVEL_8`] triangles. The claims are about these meshes.
+    /// Like `time`, but fitted only to meshes with at most [`LEVEL_8`] triangles.
     pub time_to_level_8: Option<Estimate>,
     pub build: Option<Estimate>,
     pub bytes: Option<Estimate>,
@@ -35,7 +36,7 @@ pub struct Growth {
     pub steps: Option<Estimate>,
 }
 
-/// Times are geometric means over the epochs.
+/// `ns_per_ray` and `build_ns` are geometric means over the epochs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     pub measurement: Measurement,
@@ -54,7 +55,7 @@ impl Point {
         self.measurement.triangles
     }
 
-    /// A structure with a single leaf is brute force, so the fit omits the point.
+    /// Whether the fit includes the point. A structure with a single leaf is brute force.
     pub fn is_fitted(&self) -> bool {
         self.measurement.shape.leaves > 1
     }
@@ -64,7 +65,6 @@ impl Point {
     }
 }
 
-/// The intervals predict a rerun.
 pub fn growths(dataset: &Dataset) -> Vec<Growth> {
     let all = measurements(dataset);
     let noises = [trace_noise(&all), build_noise(&all)];
@@ -87,7 +87,7 @@ pub fn growths(dataset: &Dataset) -> Vec<Growth> {
     growths
 }
 
-/// `points` must be in the order of the number of triangles.
+/// `points` must be sorted by the number of triangles.
 fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2]) -> Growth {
     let fitted: Vec<&Point> = points.iter().filter(|point| point.is_fitted()).collect();
     let coarser: Vec<&Point> = fitted.iter().copied().filter(|point| point.triangles() <= LEVEL_8).collect();
@@ -113,8 +113,8 @@ fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2
     }
 }
 
-/// Fits a line to the logarithms from `value` over ln(triangles), for each epoch. `noise` returns the variance that the
-/// A/A noise adds to a weighted sum.
+/// Returns the slope of `value` over ln(triangles). `value` returns one logarithm per epoch. `noise` returns the A/A
+/// variance of a sum with the given weights.
 fn power(
     points: &[&Point],
     value: &dyn Fn(&Measurement) -> Option<Vec<f64>>,
@@ -128,7 +128,7 @@ fn power(
     Rerun::of(&(0..epochs).map(slope).collect::<Vec<f64>>(), noise(&weights))
 }
 
-/// The weights `w` for which the sum of `w * y` is the least-squares slope over `x`.
+/// The sum of `w * y` with the returned weights `w` is the least-squares slope of `y` over `x`.
 fn slope_weights(x: &[f64]) -> Option<Vec<f64>> {
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     let squares: f64 = x.iter().map(|x| (x - mean) * (x - mean)).sum();

@@ -1,7 +1,4 @@
 //! `scaling` measures how time, build and memory grow with the number of triangles.
-//!
-//! All icospheres have the same view, so only the number of triangles changes. Other meshes differ in more than size,
-//! so the exponents are less meaningful.
 
 mod growth;
 mod section;
@@ -35,7 +32,7 @@ pub const STUDY: Study = Study {
 const STRUCTURES: [&str; 7] =
     ["median-kd", "sah-kd", "sah-kd-wide", "sah-hybrid", "sah-bvh", "obvhs-bvh2", "obvhs-cwbvh"];
 
-/// The default of `--finest`. The claims need level 8.
+/// The default of `--finest`. The claims need the icosphere of level 8.
 const FINEST_BY_DEFAULT: u32 = 8;
 
 #[derive(Clone, Debug, clap::Args)]
@@ -51,7 +48,7 @@ struct ScalingArgs {
     structures: Structures,
     #[command(flatten)]
     rays: Rays,
-    // The defaults of epochs, runs and budget in seconds. All claims are judged together, which needs many epochs.
+    // The const parameters are the defaults of `--epochs`, `--runs` and `--budget` (in seconds).
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }
@@ -61,7 +58,7 @@ fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let structures = with_twin(args.structures.chosen(registry, &STRUCTURES)?);
     let workloads = args.rays.request(&[WorkloadKind::Primary, WorkloadKind::Random]);
     let settings = Settings { slowest: Some(SLOWEST), ..Settings::new(&args.measuring, registry)? };
-    // A mesh file may be missing, so meshes are read before the spheres.
+    // Meshes are read before the spheres to report a missing file early.
     let meshes = args.scenes.read(registry, &["dragon", "lucy", "sponza"])?;
     let spheres = Scenes { scenes: (0..=args.finest).map(|level| format!("icosphere:{level}").into()).collect() };
     let spheres = spheres.read(registry, &[])?;

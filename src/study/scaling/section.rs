@@ -57,7 +57,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let sentence = format!("On spheres of n triangles the time of a primary ray grows like {}.", listed(&powers));
     let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
     let spheres = first.map(|power| Finding::new("spheres", sentence).with_value(power));
-    // The claims are about spheres up to level 8. A run without level 8 decides no claim.
+    // A claim is judged only if a sphere has at least `LEVEL_8` triangles.
     let claimed = both.iter().filter_map(|(key, growth)| {
         let growth = growth.filter(|growth| growth.points.iter().any(|point| point.triangles() >= LEVEL_8))?;
         Some(Finding::number(*key, growth.time_to_level_8?))
@@ -65,7 +65,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     spheres.into_iter().chain(claimed).collect()
 }
 
-/// Formats the range of triangles in the fit, such as `20 to 1,280`.
+/// Formats the range of triangle counts in the fit, such as `20 to 1,280`.
 fn ends(growth: &Growth) -> Option<String> {
     let fitted = || growth.points.iter().filter(|point| point.is_fitted()).map(|point| count(point.triangles() as u64));
     Some(format!("{} to {}", fitted().next()?, fitted().next_back()?))
@@ -81,7 +81,7 @@ pub fn blocks(growths: &[Growth]) -> Vec<Block> {
     let mut blocks = vec![Block::Text(text.into())];
     let spheres = groups.iter().filter(|group| group[0].family == SPHERES);
     blocks.extend(spheres.clone().map(|group| Block::figure(figure(group, &TIME))));
-    // Build time and memory do not depend on the workload, so the figures of one workload are enough.
+    // Build time and memory are equal for all workloads.
     let quantities = if first[0].family == MESHES { &[][..] } else { &[BUILD, MEMORY] };
     blocks.extend(quantities.iter().map(|quantity| Block::figure(figure(first, quantity))));
     let families: Vec<&[Growth]> = growths.chunk_by(|a, b| a.family == b.family).collect();

@@ -15,7 +15,7 @@ fn measured(family: &str, n: usize, epoch: usize, build_ns: u64, ns: &[u64]) -> 
 
 const TRIANGLES: [usize; 4] = [100, 400, 1600, 6400];
 
-/// A ray takes 2 us x n^b, and a build takes 1 ms x n^c. `wobble` varies all times by epoch.
+/// A ray takes 2 us x n^b. A build takes 1 ms x n^c. Each ln(duration) deviates by +`wobble` or -`wobble`.
 fn spheres(b: f64, c: f64, wobble: f64) -> Vec<Measured> {
     let mut all = vec![];
     for (i, n) in TRIANGLES.into_iter().enumerate() {
@@ -45,7 +45,7 @@ fn a_power_is_found_where_there_is_one() {
     assert!((build.estimate - 1.1).abs() < 1e-3, "{build:?}");
     let noisy = one(spheres(0.25, 1.1, 0.1)).time.unwrap();
     assert!(noisy.holds(0.25) && noisy.high().unwrap() - noisy.low().unwrap() > 0.01, "{noisy:?}");
-    // Memory is 100 bytes per triangle, and counts do not grow.
+    // Memory is 100 bytes per triangle. Counts are equal on all meshes.
     assert!((bytes.estimate - 1.0).abs() < 1e-9);
     assert!(growth.tests.unwrap().estimate.abs() < 1e-9);
     assert!((growth.points[0].bytes_per_triangle() - 100.0).abs() < 1e-9);
@@ -74,7 +74,7 @@ fn a_claim_about_coarser_meshes_is_judged_by_these_alone_in_all_of_their_epochs(
     let mut measured = spheres(0.25, 1.0, 0.02);
     let growth = one(measured.clone());
     assert_eq!(growth.time, growth.time_to_level_8);
-    // The coarser meshes get four more epochs. A mesh beyond level 8 gets two epochs and another exponent.
+    // Each mesh of `TRIANGLES` gets four more epochs. A mesh finer than level 8 gets two epochs.
     for (i, n) in TRIANGLES.into_iter().enumerate() {
         let ns = (2e6 * libm::pow(n as f64, 0.25)) as u64;
         let of = |epoch: usize| ns + (i + epoch) as u64 % 2 * 100_000;
@@ -92,7 +92,6 @@ fn a_single_leaf_is_not_fitted() {
     let mut measured = spheres(0.25, 1.0, 0.0);
     for own in measured.iter_mut().filter(|own| own.epoch.triangles == 100) {
         own.epoch.structures[0].shape.leaves = 1;
-        // As slow as brute force.
         own.epoch.structures[0].rays[0].ns = vec![1 << 50; 3];
     }
     let growth = one(measured.clone());

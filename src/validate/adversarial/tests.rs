@@ -47,7 +47,7 @@ fn strata_hold_what_they_promise() {
     let far = Stratum::FarOrigins.rays(&mesh, 200, 3);
     assert!(far.iter().all(|r| r.origin.length() > 900.0));
 
-    // Some exact hits lie just before the end of the interval, but round to the end.
+    // `before_its_end` accepts a ray if the exact `t` of its hit rounds to `t_max`.
     let before_its_end = |ray: &&Ray| oracle::nearest(ray, &mesh).is_some_and(|truth| truth.rounded() == ray.t_max);
     let rounded = Stratum::RoundedEnds.rays(&mesh, 400, 3);
     let found: Vec<&Ray> = rounded.iter().filter(before_its_end).collect();

@@ -6,7 +6,7 @@ use crate::validate::{Stratum, degenerate_meshes};
 
 type Correct = BruteForce<MollerTrumbore>;
 
-/// `damage` receives the bits of `ray.origin.x` and the right hit.
+/// `damage` receives the bits of `ray.origin.x` and the correct hit.
 struct Broken {
     correct: Correct,
     damage: Damage,
@@ -40,7 +40,7 @@ impl Accel for Broken {
 
 type Damage = fn(u32, Option<Hit>) -> Option<Hit>;
 
-/// `share`: the reference has the same triangle test.
+/// If `share` is false, `validate` assumes that structure and reference have different triangle tests.
 fn damaged(damage: Damage, any: fn(bool) -> bool, share: bool) -> Validation {
     let mesh = soup();
     let mut reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();
@@ -67,7 +67,7 @@ fn damage_is_found_and_told_apart_whoever_judges() {
     for (name, damage, kind) in rows {
         for share in [true, false] {
             let v = damaged(damage, |any| any, share);
-            // With different tests, rounding may explain an ulp.
+            // If `share` is false, rounding explains an error of one ulp.
             let kind = kind.filter(|_| share || name != "an ulp");
             let wrong = if share { v.structure_errors } else { v.answer_errors };
             assert_eq!(v.worst_error().map(|worst| worst.kind), kind, "{name}");
@@ -83,9 +83,9 @@ fn damage_is_found_and_told_apart_whoever_judges() {
     }
 }
 
-/// Rounding in single precision explains a relative error of 2e-6 here, but not of 1e-4.
 #[test]
 fn depths_are_judged_by_a_bound_of_rounding() {
+    // Rounding in single precision explains a relative error of 2e-6.
     let near = |_, hit: Option<Hit>| hit.map(|h| Hit { t: h.t * (1.0 + 2e-6), ..h });
     let v = damaged(near, |any| any, false);
     assert!(v.depth_errors > 1000 && v.depth_errors + v.reference_errors == v.differing, "{v:?}");
@@ -93,10 +93,11 @@ fn depths_are_judged_by_a_bound_of_rounding() {
     let worst = &v.worst[0];
     assert!(worst.kind == Kind::Depth && worst.verdict.contains("ulps away"), "{worst}");
     assert_eq!(v.worst_error(), None);
-    // With the same test, `t` must have the same bits.
+    // If structure and reference share the triangle test, they must return equal bits of `t`.
     let v = damaged(near, |any| any, true);
     assert_eq!((v.depth_errors, v.structure_errors), (0, v.differing));
 
+    // Rounding in single precision rarely explains a relative error of 1e-4.
     let far = |_, hit: Option<Hit>| hit.map(|h| Hit { t: h.t * 1.0001, ..h });
     let v = damaged(far, |any| any, false);
     assert!(v.answer_errors > 1000 && v.depth_errors < 100, "{v:?}");
@@ -118,7 +119,7 @@ fn contradictory_and_unrepeatable_hits_are_found() {
 #[test]
 fn a_farther_hit_is_a_lost_nearer_one() {
     let mesh = soup();
-    // Each triangle of the first half becomes a point. The second half keeps its numbers.
+    // Triangles 0 to 249 become points. All triangles keep their numbers.
     let keep = mesh.triangles().iter().enumerate().map(|(i, t)| if i < 250 { [t[0]; 3] } else { *t });
     let kept = Mesh::new(mesh.positions().to_vec(), keep.collect()).unwrap();
     let half = Correct::build(&Arc::new(kept), &Default::default()).unwrap();
@@ -130,7 +131,7 @@ fn a_farther_hit_is_a_lost_nearer_one() {
     assert!(answers.answer_errors > 500 && answers.structure_errors == 0);
     let kinds = |v: &Validation| v.worst.iter().all(|w| w.kind == Kind::Lost);
     assert!(kinds(&v) && kinds(&answers), "misses rank before farther hits");
-    // These rays hit the second half. An error on such a ray is a lost nearer hit on the first half.
+    // `both` has the rays that hit `half`. Every error on these rays is a lost nearer hit.
     let only = |v: &Validation| v.structure_errors + v.answer_errors;
     let both: Vec<Ray> = rays.into_iter().filter(|ray| half.closest_hit(ray, &mut ()).is_some()).collect();
     let reference = Reference::brute_force::<MollerTrumbore>(&mesh).unwrap();
@@ -152,7 +153,7 @@ fn any_hit_that_rounding_may_excuse_is_wrong_if_the_closest_hit_contradicts_it()
     use glam::Vec3;
     let corners = vec![Vec3::new(1.0, 1.0, 1.0), Vec3::new(2.0, 1.0, 1.25), Vec3::new(1.0, 2.0, 1.5)];
     let mesh = Arc::new(Mesh::new(corners, vec![[0, 1, 2]]).unwrap());
-    // The ray starts just above the triangle and points away from it: rounding may find a hit at 0.
+    // The ray starts just above the triangle and points away. Rounding may give a hit at `t` = 0.
     let ray = Ray::new(Vec3::new(1.25, 1.25, 1.187_500_1), Vec3::new(0.1, 0.1, 1.0));
     let reference = Reference::of_test("own", &mesh)?;
     let hits = &reference.closest_hits(&[ray]);

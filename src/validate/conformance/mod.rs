@@ -1,4 +1,4 @@
-//! Tests that every structure must pass, as functions and as the macro `conformance!`.
+//! Defines the tests that every structure must pass, as functions and as the macro `conformance!`.
 
 mod soundness;
 
@@ -15,7 +15,7 @@ pub struct Subject {
     pub name: String,
     /// See [`Accel::TRIANGLE_TEST`].
     pub triangle_test: &'static str,
-    /// Whether the structure promises the lowest primitive number among hits at equal `t`.
+    /// Whether the structure must return the lowest primitive number among hits at equal `t`.
     pub lowest_id: bool,
     /// Time limit of a build or a query.
     pub limit: Duration,
@@ -24,7 +24,7 @@ pub struct Subject {
 
 pub type Build = Arc<dyn Fn(&Arc<Mesh>) -> Result<Box<dyn DynAccel>, BuildError> + Send + Sync>;
 
-/// The result on one mesh and one stratum.
+/// The result for one mesh and one stratum.
 pub struct Finding {
     pub mesh: String,
     pub stratum: Stratum,
@@ -56,10 +56,10 @@ impl Subject {
     }
 }
 
-/// Compares the subject with a reference on `count` rays of every stratum, on every mesh. Stops after a hang.
+/// Compares the subject with a reference, on `count` rays per mesh and stratum. A hang ends the comparison.
 ///
 /// # Errors
-/// If the subject or its reference cannot be built over a mesh.
+/// If the subject or the reference cannot be built over a mesh.
 pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec<Finding>, String> {
     let mut findings = vec![];
     for (name, mesh) in meshes {
@@ -80,12 +80,14 @@ pub fn findings(subject: &Subject, meshes: &[Named], count: usize) -> Result<Vec
     Ok(findings)
 }
 
-/// Checks that [`findings`] finds no error, and the lowest primitive at equal `t` if `lowest_id` is set.
+/// Checks that [`findings`] finds no error.
 ///
-/// If this crate lacks the structure's triangle test, hits that rounding in single precision explains count as right.
+/// If `lowest_id` is set, a hit must have the lowest primitive number at equal `t`.
+///
+/// If this crate lacks the structure's triangle test, differences that rounding may explain are accepted.
 ///
 /// # Errors
-/// One line per failing mesh and stratum. Also if a mesh does not build, or if the subject declines every ray.
+/// If a check fails, if a structure cannot be built, or if the subject declines every ray.
 pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), String> {
     let wrong = |finding: &Finding| {
         let v = &finding.validation;
@@ -102,7 +104,7 @@ pub fn answers(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), 
 }
 
 impl Finding {
-    /// Describes the failure in one line, with the worst ray in the text format of [`Ray`](crate::geometry::Ray).
+    /// Returns the counts and the worst ray in one line.
     pub fn line(&self, subject: &str) -> String {
         let v = &self.validation;
         let worst = v.worst.first().map_or("no ray".into(), ToString::to_string);
@@ -136,11 +138,11 @@ fn outcome(lines: Vec<String>) -> Result<(), String> {
     Err(if more > 0 { format!("{shown}\nand {more} more") } else { shown })
 }
 
-/// Makes a module of tests that check a structure against the contract of [`Accel`].
+/// Makes a test module that checks a structure against the contract of [`Accel`].
 ///
 /// Example: `sahara::conformance!(my_tree, MyTree, MyConfig::default());`
 ///
-/// With `lowest_id` as a fourth argument, the lowest primitive number must win among equal `t`.
+/// A fourth argument `lowest_id` requires the lowest primitive number among hits at equal `t`.
 #[macro_export]
 macro_rules! conformance {
     ($module:ident, $accel:ty, $config:expr $(, $lowest_id:ident)?) => {

@@ -1,4 +1,4 @@
-//! Checks of a structure that do not need the right hits.
+//! Checks a structure without knowledge of the correct hits.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -36,7 +36,7 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
         if accel.capabilities().any_hit {
             accel.any_hits(&rays, &mut plain.any);
             kept.any_hits(&mut loaded.any);
-            // Query closest hits again, because the any-hit query must leave loaded rays unchanged.
+            // This repetition detects an any-hit query that changes the loaded rays.
             kept.closest_hits(&mut loaded.closest);
             accel.any_hits_counted(&rays, &mut counted.any, &mut counts[1]);
         }
@@ -45,11 +45,11 @@ fn trace(accel: &Arc<dyn DynAccel>, rays: &[Ray], limit: Duration) -> Result<Tra
     })
 }
 
-/// Checks that counting and loading rays change no hit, and that the counts agree with
+/// Compares the hits of plain queries, counted queries and queries on loaded rays. Checks the counts against
 /// [`Accel::OBSERVED`](crate::accel::Accel::OBSERVED).
 ///
 /// # Errors
-/// One line per violation, or one line if a build or a query fails or hangs.
+/// One line per violation. The check ends at the first build or query that fails or hangs.
 pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(), String> {
     let mut lines = vec![];
     for (name, mesh) in meshes {
@@ -68,7 +68,7 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
                 }
             };
 
-            // At equal `t`, a structure that does not promise the lowest primitive may return any of them.
+            // Without `lowest_id`, a structure may return any of the primitives at the closest `t`.
             let number = |h: Hit| if subject.lowest_id { h.prim.index() } else { 0 };
             let answer = |hit: Option<Hit>| hit.map(|h| (h.t.to_bits(), number(h)));
             let agree = |a: Option<Hit>, b: Option<Hit>| answer(a) == answer(b);
@@ -104,10 +104,10 @@ pub fn counting(subject: &Subject, meshes: &[Named], count: usize) -> Result<(),
     outcome(lines)
 }
 
-/// Checks that the shape of the tree is possible.
+/// Checks the shape and the footprint of a structure for impossible numbers.
 ///
 /// # Errors
-/// One line per violation, or one line if a build, `shape` or `footprint` fails or hangs.
+/// One line per violation. The check ends at the first call that fails or hangs.
 pub fn shapes(subject: &Subject, meshes: &[Named]) -> Result<(), String> {
     let mut lines = vec![];
     for (name, mesh) in meshes {

@@ -1,4 +1,4 @@
-//! Runs a case on a structure.
+//! Runs a hard case on a structure.
 
 use std::borrow::Cow;
 
@@ -24,9 +24,9 @@ pub struct Answers {
     pub build_ns: u64,
     /// Rays on which the any-hit query contradicts the closest-hit query.
     pub any_hit_errors: u64,
-    /// Rays whose hit differs between a batch and a single ray. At most 500 rays are traced again.
+    /// Rays whose hit as a single ray differs from the hit in the batch. At most 500 rays are checked.
     pub unrepeatable: u64,
-    /// Time per ray of the case / time per ray of `Set::ordinary`. `None` if the case has no ordinary rays.
+    /// Time per ray of the case, divided by the time per ray of `Set::ordinary`. `None` if `Set::ordinary` is empty.
     pub slowness: Option<f64>,
     pub property: Option<Property>,
 }
@@ -40,10 +40,10 @@ fn hits_of_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Optio
     Ok(hits_from_bytes(&Vec::deserialize(deserializer)?))
 }
 
-/// Builds `subject` over the mesh of `case` and traces at most `rays` rays, or checks the property.
+/// Runs `case` on a new build of `subject`.
 ///
 /// # Errors
-/// If the structure declines a ray, or if its external program fails. In a case with rays, also if the build fails.
+/// If the external program of the structure fails. For a case with rays, a failed build or a declined ray is an error.
 pub fn run(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
     match case.content {
         Content::Rays { rays: most, make, .. } => {
@@ -72,7 +72,7 @@ pub fn run(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -
     }
 }
 
-/// The maximum number of rays that are traced again on their own.
+/// The maximum number of rays that are traced again as single rays.
 const AGAIN: usize = 500;
 
 fn traced(accel: &dyn DynAccel, set: &Set, clock: &dyn Clock) -> Answers {

@@ -6,34 +6,34 @@ use crate::validate::conformance::Subject;
 
 #[derive(Clone, Copy)]
 pub struct HardCase {
-    /// Starts at 1 and ascends in the catalogue. Two cases have the number 23.
+    /// Two cases have the number 23.
     pub number: u32,
     pub name: &'static str,
     pub rank: Rank,
     pub content: Content,
-    /// The reason why systems fail here, in one sentence.
+    /// The reason for the case, in one sentence.
     pub reason: &'static str,
-    /// The source of the reason: a paper in `papers/`, source code or a discussion of a project, or a measurement.
+    /// The source of `reason`, such as a paper, source code or a measurement.
     pub source: &'static str,
 }
 
-/// Whether a case belongs to the two totals that `validate --hard` prints. The first total is over the 59 moderate and
-/// extreme cases. The second total is over the 49 moderate cases.
+/// Decides which totals of `validate --hard` include a case. The first total covers the 59 moderate and extreme cases.
+/// The second total covers the 49 moderate cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rank {
     /// Valid input of moderate sizes.
     Moderate,
-    /// Valid input of sizes at which `f32` products leave their range.
+    /// Valid input of extreme sizes or distances.
     Extreme,
-    /// Belongs to no total: the input is invalid, no ray can hit, or systems differ in the ends of intervals.
+    /// Belongs to no total, for example because the rays are invalid.
     Unranked,
-    /// Belongs to no total, because the survey that ranked the cases did not measure this case.
+    /// Added after the cases of the other ranks. Belongs to no total.
     Added,
 }
 
 impl HardCase {
-    /// At most `most` rays, and their mesh. `None` for a property.
+    /// The mesh and the rays, limited to `most` rays. `None` for a property.
     pub fn set(&self, most: usize) -> Option<Set> {
         match self.content {
             Content::Rays { rays, make, .. } => Some(make(rays.min(most))),
@@ -48,21 +48,22 @@ pub enum Content {
         /// Default and maximum number of rays.
         rays: usize,
         expected: Expected,
-        /// Makes mesh and rays, with the same bits on every machine. A smaller number gives the first of these rays.
+        /// Makes the mesh and the given number of rays, with the same bits on every machine. The rays for a smaller
+        /// number are a prefix of the rays for a larger number.
         make: fn(usize) -> Set,
     },
     /// The check of a property. The `usize` is the approximate number of rays.
     Property(fn(&Subject, usize) -> Result<Property, BuildError>),
 }
 
-/// The right hits of the rays of a case.
+/// The right results for the rays of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
     Hit,
     Miss,
     /// The hits of the exact oracle.
     Oracle,
-    /// Every ray hits exactly where the ray with the same index hits in the named case.
+    /// Each ray has the exact hit of the ray with the same index in the named case.
     SameAs(&'static str),
 }
 
@@ -76,7 +77,7 @@ pub struct Property {
 }
 
 impl Property {
-    /// Adds a comparison that succeeded if `holds`. Calls `sentence` only for the first failure.
+    /// Counts one comparison, which failed if `holds` is false. Calls `sentence` only for the first failure.
     pub(super) fn note(&mut self, holds: bool, sentence: impl FnOnce() -> String) {
         self.checked += 1;
         self.broken += u64::from(!holds);
@@ -87,7 +88,7 @@ impl Property {
 }
 
 /// Makes the table `CASES`. A row is `RANK NUMBER "NAME", EXPECTED x RAYS => GENERATOR, "REASON", "SOURCE";`. Without
-/// `x RAYS`, a case has 10,000 rays. If `EXPECTED` is `Property`, the check of the property replaces the generator.
+/// `x RAYS`, a case has 10,000 rays. If `EXPECTED` is `Property`, `GENERATOR` is the check of the property.
 macro_rules! cases {
     ($($rank:ident $number:literal $name:literal, $expected:ident $(($of:literal))? $(x $rays:literal)? => $make:expr,
         $reason:literal, $source:expr;)*) => {

@@ -21,7 +21,7 @@ const OVERFLOW: &str = "Embree, FLT_LARGE; measured: every peer of f32 misses or
 const TIME: &str = "Embree, verify.cpp, nan_test and inf_test: time below 2.5 times the time of valid rays";
 
 cases! {
-    // Rays from inside a closed star, which all hit.
+    // Rays from inside a closed star.
     Moderate 1 "closed_random", Hit => |n| Set::new(star(), n, 1, |_, s| Ray::new(inside(s), s.direction())),
         "Random rays inside a spiky closed star: the minimum requirement of watertight traversal.",
         "pbrt-v4, shapes_test.cpp, Triangle.Watertight";
@@ -52,7 +52,7 @@ cases! {
     Moderate 9 "cube_diag_110", Hit => |n| Set::new(cube(), n, 5, |_, s| diagonal(s, true)),
         "A diagonal with one zero component, often in the plane of a face.", "Embree pull request 589; Ize 2013";
 
-    // Rays across a plane of triangles, in this plane, or nearly in it.
+    // Triangles in one plane.
     Moderate 10 "flat_down", Hit => |n| Set::new(sheet(32), n, 6, |_, s| Ray::new(at_height(s, 1.0), Vec3::NEG_Z)),
         "The root box has no thickness: an interval of one point must not count as empty.",
         "Hapala, Havran 2011: flat cells";
@@ -79,7 +79,7 @@ cases! {
         "One ulp is one unit here: coordinates of rays, boxes and planes often coincide.",
         "measured: truncating the near interval at a plane through the origin lost 2 to 27 % of the rays";
 
-    // Scenes of extreme size, and directions of extreme length.
+    // Very small and very large scenes. Very short, very long and nearly axis-aligned directions.
     Extreme 18 "scale_1e-40", Hit => |n| scaled(n, 1e-40),
         "Coordinates are denormal: every product of two of them is zero.", MISSED;
     Extreme 19 "scale_1e-30", Hit => |n| scaled(n, 1e-30),
@@ -143,7 +143,7 @@ cases! {
     Moderate 39 "fan_random", Hit => |n| Set::new(fan(), n, 15, |_, s| ray_to(below(s), at_height(s, 0.0) * 0.4)),
         "A fan of 800 triangles; the rays aim next to its apex.", "survey";
 
-    // Triangles that coincide, overlap, have no area or differ much in size. Meshes of one or no triangle.
+    // Triangles that coincide, overlap, have no area or differ much in size. Meshes with at most one triangle.
     Moderate 40 "coincident_1000", Hit x 2000 => |n| Set::new(copies(1000), n, 28, to_copies),
         "A thousand copies of one triangle: the lowest number must win, and no split separates them.",
         "Embree, verify.cpp, overlapping_primitives";
@@ -171,7 +171,7 @@ cases! {
         "No triangle at all: no root box, no node, no hit, no panic.",
         "kdtree-ray: asserts; Embree, verify.cpp, empty_scene";
 
-    // Distant origins, scenes of extreme extent, and triangles that no split separates.
+    // Distant origins, triangles of very different sizes, and triangles that no split separates.
     Moderate 49 "far_1e3", Oracle => |n| Set::new(star_times(0.3), n, 36, |mesh, s| from_afar(mesh, s, 1e3)),
         "From 1e3 away: the boxes of thin leaves are a few ulps of t deep.", "Ize 2013";
     Moderate 50 "far_1e6", Oracle => |n| Set::new(star_times(0.3), n, 36, |mesh, s| from_afar(mesh, s, 1e6)),
@@ -227,7 +227,7 @@ cases! {
     Moderate 64 "soup_random", Oracle => |n| Set::new(soup(2000, 22), n, 22, to_surface),
         "Random triangles and rays, for comparison with the other cases.", "survey";
 
-    // Invalid rays, for which a structure must return a miss in a short time. Case 72 has valid rays.
+    // Invalid rays, except in case 72. All invalid rays must miss.
     Unranked 65 "rays_nan_origin", Miss x 1000 => |n| spoilt(n, |s, ray| ray.origin[s.below(3)] = f32::NAN),
         "NaN in the origin: comparisons with it are false, and code that drops NaN walks the whole tree.", TIME;
     Unranked 66 "rays_nan_dir", Miss x 1000 => |n| spoilt(n, |s, ray| ray.direction[s.below(3)] = f32::NAN),
@@ -250,7 +250,7 @@ cases! {
         "Rays that leave a surface at a rounded point: half of the points lie below it, so the ray hits it again.",
         "Wächter, Binder 2019; pbrt-v4, Triangle.Reintersect";
 
-    // Cases that the survey of ray tracers did not measure.
+    // Further cases.
     Added 73 "continuation", Property => continuation,
         "Continuing behind each hit must visit every crossing of a ray once.",
         "Embree, verify.cpp, sphere_filter_multi_hit";

@@ -1,4 +1,4 @@
-//! Finds cases by name or number.
+//! Finds hard cases by name or number.
 
 use super::case::HardCase;
 use super::catalogue::CASES;
@@ -18,12 +18,12 @@ pub fn catalogue() -> Vec<&'static HardCase> {
 /// The first case that [`find_all`] returns.
 ///
 /// # Errors
-/// Like [`find_all`].
+/// If no case matches.
 pub fn find(name: &str) -> Result<&'static HardCase, UnknownCase> {
     Ok(find_all(name)?[0])
 }
 
-/// The case with this name, in upper or lower case, or all cases with this number.
+/// All cases whose name or number is `name`. Capital and small letters are equal.
 ///
 /// # Errors
 /// If no case matches.

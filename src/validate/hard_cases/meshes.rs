@@ -33,19 +33,19 @@ pub(super) fn tilted(p: Vec3) -> Vec3 {
     AXES[0] * p.x + AXES[1] * p.y + AXES[2] * p.z
 }
 
-/// A closed sphere of radius 1. Neighbours share corners bit for bit.
+/// A closed sphere of radius 1. Neighbouring triangles share corners bit for bit.
 pub(super) fn sphere() -> Arc<Mesh> {
     let model = meshes::uv_sphere(50, 50);
     indexed(model.positions, model.triangles)
 }
 
-/// The closed star of pbrt's watertight test. Points nearer to zero than 0.9 are inside.
+/// The closed star of pbrt's test `Triangle.Watertight`. Points within 0.9 of the origin are inside.
 pub(super) fn star() -> Arc<Mesh> {
     let mut sampler = Sampler::new(1);
     let [top, bottom, ..]: [f32; 2] = std::array::from_fn(|_| 1.0 + 5.0 * sampler.unit());
     let sphere = meshes::uv_sphere(32, 32);
     let points = sphere.positions.iter().map(|&p| {
-        // The vertices at a pole coincide, so they need the same radius.
+        // All vertices of a pole coincide, so they need the same radius.
         let pole = p.x == 0.0 && p.z == 0.0;
         let radius = 1.0 + 5.0 * sampler.unit();
         p * match p.y > 0.0 {
@@ -74,7 +74,7 @@ pub(super) fn sheet(n: u32) -> Arc<Mesh> {
     indexed(points, triangles.collect())
 }
 
-/// The surface of the cube [-1, 1]^3. Corners are multiples of 1/8. Normals point outward.
+/// The surface of the cube [-1, 1]^3. Coordinates are multiples of 1/8. Normals point outward.
 pub(super) fn cube() -> Arc<Mesh> {
     let grid = box_grid(16);
     let outward = |&[i, j, k]: &[u32; 3]| {
@@ -117,7 +117,7 @@ pub(super) fn ulp_copies() -> Arc<Mesh> {
     mesh((0..500).map(|_| TRIANGLE.map(|p| Vec3::from_array(p.to_array().map(&mut shift)))))
 }
 
-/// Triangles along the x axis. Every fourth is a sliver. All other triangles have no area.
+/// Triangles along the x axis. Every fourth triangle is a sliver. All other triangles have no area.
 pub(super) fn line() -> Arc<Mesh> {
     let on_line = |i: usize, step: f32| Vec3::new(i as f32 * 0.125 + step, 0.0, 0.0);
     mesh((0..400).map(|i| {
@@ -129,7 +129,7 @@ pub(super) fn line() -> Arc<Mesh> {
 pub(super) fn mostly_centred() -> Arc<Mesh> {
     let mut sampler = Sampler::new(26);
     let alike = (0..1400).map(|_| {
-        // Multiples of 1/64 add without rounding, so the centroid is exactly zero.
+        // Small multiples of 1/64 add without rounding, so the centroid is exactly zero.
         let [a, b] = [0; 2].map(|_| (sampler.cube() * 64.0).round() / 64.0);
         [a, b, -a - b]
     });

@@ -1,4 +1,4 @@
-//! Compares the hits in a scene with the hits in changed copies of it.
+//! Compares the hits in a scene with the hits in changed copies of the scene.
 
 use glam::Vec3;
 
@@ -12,17 +12,16 @@ use crate::validate::conformance::Subject;
 use crate::validate::degenerate::mesh;
 use crate::validate::{Sampler, has_replied};
 
-/// A change of a scene that keeps every `t`, or multiplies every `t` by a power of two.
 struct Change {
     name: &'static str,
-    /// Whether every product rounds as before the change. Otherwise only the exact test must return the expected bits
-    /// of `t`.
+    /// Whether `f32` arithmetic rounds the same before and after the change. If false, only structures with the
+    /// triangle test `Exact` are checked.
     same_rounding: bool,
     triangles: fn(&[[Vec3; 3]]) -> Vec<[Vec3; 3]>,
     /// Moves a vertex or a ray origin.
     point: fn(Vec3) -> Vec3,
     direction: fn(Vec3) -> Vec3,
-    /// The new `t` divided by the old one.
+    /// The new `t` divided by the old `t`, a power of two.
     factor: f32,
 }
 
@@ -35,7 +34,7 @@ const SAME: Change = Change {
     factor: 1.0,
 };
 
-/// The coordinates of the scene are multiples of 2^-10 below 8, so all changes are exact.
+/// All changes are exact for coordinates that are multiples of 2^-10 in [-8, 8].
 const CHANGES: [Change; 7] = [
     Change {
         name: "in another order",
@@ -97,8 +96,8 @@ pub(super) fn metamorphic(subject: &Subject, rays: usize) -> Result<Property, Bu
     Ok(property)
 }
 
-/// Traces rays straight down to inner vertices of a sheet. The rays lie in the planes of many boxes. If the direction
-/// (1e-30, 1e-30, -1) hits, the direction (0, 0, -1) must also hit.
+/// Traces rays straight down to inner vertices of a sheet. If the direction (1e-30, 1e-30, -1) hits, the direction
+/// (0, 0, -1) must also hit.
 pub(super) fn straight_down(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let accel = (subject.build)(&sheet(32))?;
     let (mut sampler, mut property) = (Sampler::new(77), Property::default());

@@ -1,4 +1,4 @@
-//! Hard cases: inputs on which ray tracers are known to fail, with the expected hits.
+//! Hard cases: inputs on which ray tracers are known to fail.
 //!
 //! [`run`] runs a case on a structure. [`Score`] compares the hits of the structure with the exact hits.
 

@@ -1,4 +1,4 @@
-//! Properties that all hits of a structure must have.
+//! Properties that every structure must have.
 
 use std::sync::Arc;
 
@@ -33,7 +33,7 @@ pub(super) fn sizes(subject: &Subject, rays: usize) -> Result<Property, BuildErr
     validated(subject, &meshes, rays, |found| (found.errors(), "a hit is wrong"))
 }
 
-/// `errors` selects the errors that break the property.
+/// `errors` returns the number and a description of the errors that break the property.
 fn validated(
     subject: &Subject,
     meshes: &[Arc<Mesh>],
@@ -59,10 +59,10 @@ fn validated(
     Ok(property)
 }
 
-/// The maximum number of rays on a line. The limit stops a structure that does not advance.
+/// The maximum number of rays that `continued` returns. A structure that ignores `t_min` reaches this limit.
 const CROSSINGS: usize = 4096;
 
-/// `ray`, and a copy of `ray` that starts behind each hit of `accel`.
+/// Returns `ray` and, for each hit along `ray`, a copy that starts behind the hit.
 fn continued(accel: &dyn DynAccel, ray: Ray) -> Vec<Ray> {
     let mut rays = vec![ray];
     while let Some(hit) = accel.closest(&rays[rays.len() - 1..])[0] {
@@ -83,7 +83,6 @@ fn through_star(count: usize, seed: u64) -> Vec<Ray> {
     (0..count).map(ray).collect()
 }
 
-/// The rays continue behind each hit of brute force.
 pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let mesh = star();
     let (accel, reference) = with_reference(subject, &mesh)?;
@@ -95,7 +94,7 @@ pub(super) fn continuation(subject: &Subject, rays: usize) -> Result<Property, B
     Ok(Property { checked: found.rays, broken: found.errors(), example })
 }
 
-/// An odd number of crossings is allowed if brute force with the same triangle test has as many.
+/// The number of crossings must be even, or equal to the number of crossings with the reference.
 pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, BuildError> {
     let (accel, reference) = with_reference(subject, &star())?;
     let mut property = Property::default();
@@ -109,7 +108,7 @@ pub(super) fn parity(subject: &Subject, rays: usize) -> Result<Property, BuildEr
     Ok(property)
 }
 
-/// The maximum number of references per triangle.
+/// The maximum ratio of the number of references to the number of triangles.
 const REFERENCES: usize = 64;
 /// The maximum number of edges from root to leaf.
 const DEPTH: usize = 1024;

@@ -1,4 +1,4 @@
-//! Generators of rays, and of some meshes, for the catalogue.
+//! Generates rays for the hard cases.
 
 use glam::Vec3;
 
@@ -10,12 +10,12 @@ use crate::validate::Sampler;
 use crate::validate::adversarial::{near_the_largest_t, rounded_ends};
 use crate::validate::degenerate::{TRIANGLE, box_grid, coplanar};
 
-/// A point inside the star, at most half a unit from zero.
+/// A random point at most 0.5 from (0, 0, 0).
 pub(super) fn inside(sampler: &mut Sampler) -> Vec3 {
     sampler.direction() * (0.5 * sampler.unit())
 }
 
-/// Rays from inside a sphere. Rounding moves the vertices of the sphere, but the sphere stays closed.
+/// Rays that start inside a sphere.
 pub(super) fn in_sphere(count: usize, centre: Vec3, radius: f32) -> Set {
     let mesh = moved(&sphere(), |p| centre + p * radius);
     Set::new(mesh, count, 2, |_, sampler| Ray::new(centre + inside(sampler) * radius, sampler.direction()))
@@ -27,19 +27,19 @@ pub(super) fn nearly_axis(sampler: &mut Sampler, tiny: f32) -> Vec3 {
     direction
 }
 
-/// A direction along an axis. Its other two components are `zero`.
+/// One component of the direction is 1 or -1. The other two components are `zero`.
 pub(super) fn along_axis(sampler: &mut Sampler, zero: f32) -> Vec3 {
     let mut direction = Vec3::splat(zero);
     direction[sampler.below(3)] = sampler.sign();
     direction
 }
 
-/// A multiple of 1/8 from -1 to 1.
+/// A random multiple of 1/8 in [-1, 1].
 fn on_grid(sampler: &mut Sampler) -> f32 {
     sampler.below(17) as f32 / 8.0 - 1.0
 }
 
-/// A ray along an axis that meets the cube at t = 2. The zero components of a negative direction are -0.0.
+/// A ray parallel to an axis. The ray meets the cube [-1, 1]^3 at t = 2.
 pub(super) fn face_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let (axis, sign) = (sampler.below(3), sampler.sign());
     let mut origin = [on_grid(sampler), on_grid(sampler), -3.0 * sign];
@@ -47,7 +47,7 @@ pub(super) fn face_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::from_array(origin), Vec3::AXES[axis] * sign)
 }
 
-/// A diagonal ray that reaches a grid point of the cube at t = 4. If `flat`, one component of its direction is zero.
+/// A diagonal ray that passes through a grid point at t = 4. If `flat`, one component of the direction is zero.
 pub(super) fn diagonal(sampler: &mut Sampler, flat: bool) -> Ray {
     let through = Vec3::new(on_grid(sampler), on_grid(sampler), on_grid(sampler));
     let mut direction = Vec3::new(sampler.sign(), sampler.sign(), sampler.sign());
@@ -82,7 +82,7 @@ pub(super) fn overlapping(count: usize) -> Set {
     })
 }
 
-/// A ray from a random point, which lies in the plane x = 0.5 with probability 1/2.
+/// With probability 1/2, the origin of the ray lies in the plane x = 0.5.
 pub(super) fn from_split_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let x = if sampler.coin() { 0.5 } else { 0.5 + 2.0 * sampler.signed() };
     Ray::new(Vec3::new(x, sampler.signed(), sampler.signed()), sampler.direction())
@@ -104,12 +104,11 @@ pub(super) fn slivers(count: usize, placed: fn(Vec3) -> Vec3) -> Set {
     })
 }
 
-/// The back of each triangle of the fan is visible from this point.
 pub(super) fn below(sampler: &mut Sampler) -> Vec3 {
     Vec3::new(sampler.signed(), sampler.signed(), -3.0 - 2.0 * sampler.unit())
 }
 
-/// The mesh must consist of copies of `TRIANGLE`.
+/// A ray to a point inside `TRIANGLE`.
 pub(super) fn to_copies(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let ([a, b, c], [u, v, w]) = (TRIANGLE, sampler.barycentric().map(|weight| 0.2 + 0.4 * weight));
     let origin = Vec3::new(sampler.signed(), sampler.signed(), 4.0 * sampler.sign());
@@ -126,10 +125,9 @@ pub(super) fn to_surface(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     ray_to(centre + sampler.direction() * reach, on_surface(mesh, sampler))
 }
 
-/// The points at eighths of the edges are exact floats.
 pub(super) const SIMPLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(8.0, 0.0, 4.0), Vec3::new(0.0, 8.0, -4.0)];
 
-/// A ray to a point at an eighth of an edge. Its direction is exact, so `t` is 1.
+/// A ray that meets an edge or a vertex of `SIMPLE` at exactly t = 1.
 pub(super) fn exactly_on_the_rim(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let [a, b, c] = SIMPLE;
     let normal = (b - a).cross(c - a);
@@ -169,7 +167,6 @@ pub(super) fn stadium(count: usize) -> Set {
     })
 }
 
-/// A ray that hits a random triangle of the sequence first, and then all smaller triangles.
 pub(super) fn through_smaller(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     let [corner, ..] = mesh.corners(sampler.below(300) as u32);
     let side = |sampler: &mut Sampler| 0.05 + 0.2 * sampler.unit();
@@ -188,7 +185,7 @@ pub(super) fn window(_: &Mesh, sampler: &mut Sampler) -> Ray {
     if sampler.coin() { ray.until(1.0) } else { Ray { t_min: 1.0, ..ray } }
 }
 
-/// A ray from inside a cube to its upper face, with an exact `t`. `interval` maps this `t` to the interval of the ray.
+/// A ray to the plane z = 1. `interval` computes `t_min` and `t_max` from the exact `t` at this plane.
 pub(super) fn to_the_lid(sampler: &mut Sampler, interval: fn(f32) -> (f32, f32)) -> Ray {
     let grid = |sampler: &mut Sampler| sampler.below(65) as f32 / 64.0 - 0.5;
     let origin = Vec3::new(grid(sampler), grid(sampler), grid(sampler));
@@ -214,7 +211,7 @@ pub(super) fn off_a_sphere(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(origin, if direction.dot(origin) < 0.0 { -direction } else { direction })
 }
 
-/// Rays that `spoil` makes invalid. The ordinary rays are the original, valid rays.
+/// The function `spoil` makes each ray invalid. `Set::ordinary` contains the unchanged, valid rays.
 pub(super) fn spoilt(count: usize, spoil: fn(&mut Sampler, &mut Ray)) -> Set {
     let mut ordinary = vec![];
     let set = Set::new(star(), count, 60, |_, sampler| {
@@ -238,7 +235,7 @@ pub(super) fn spoil_interval(sampler: &mut Sampler, ray: &mut Ray) {
     }
 }
 
-/// In a star of this scale, products of three lengths underflow, but products of two do not.
+/// The scale of the star is so small that products of three lengths underflow.
 pub(super) fn in_tiny_star(count: usize) -> Set {
     let scale = libm::scalbnf(1.0, -47);
     Set::new(star_times(scale), count, 60, |mesh, sampler| {
@@ -254,7 +251,7 @@ pub(super) fn from_the_largest(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     Ray::new(Vec3::new(side, target.y, target.z), Vec3::new(-0.3 * side, drift.y, drift.z))
 }
 
-/// Rays to the edges of a triangle. The first ray is `first`, which revealed the failure.
+/// Rays to the edges of a triangle. `first` is the origin and the direction of the first ray.
 pub(super) fn along_edges(
     count: usize,
     seed: u64,
@@ -272,13 +269,12 @@ pub(super) fn along_edges(
     set
 }
 
-/// The needle passes through zero, and the ray starts near zero. The ray therefore runs along the needle.
 pub(super) fn along_needle(sampler: &mut Sampler, target: Vec3) -> Ray {
     let origin = sampler.cube() * 100.0;
     Ray::new(origin, (target - origin) / 64.0)
 }
 
-/// A ray with a hit whose exact t is below `t_max` and rounds to `t_max`.
+/// A ray whose exact hit lies before `t_max`. The `t` of the hit rounds to `t_max`.
 pub(super) fn before_the_end(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     loop {
         let corners = triangle(mesh, sampler);

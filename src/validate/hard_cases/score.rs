@@ -1,4 +1,4 @@
-//! Scores the hits of a structure on a case by comparison with the exact hits.
+//! Scores the hits of a structure on a hard case.
 
 use std::collections::BTreeMap;
 
@@ -12,11 +12,11 @@ use crate::oracle::DepthRule;
 use crate::oracle::{Oracle, Truth};
 use crate::validate::{ErrorCounts, ExpectedHits, Reference, Validation, count_errors, validate_hits};
 
-/// The mesh, rays and exact hits of one case, computed once for all structures.
+/// The mesh, the rays and the exact hits of one case.
 pub struct CaseTruth {
-    /// `None` for a property.
+    /// `None` if the case has no rays.
     set: Option<(Set, Vec<Option<Truth>>)>,
-    /// The references, by the name of the triangle test.
+    /// The key is the name of a triangle test.
     references: BTreeMap<&'static str, Reference>,
 }
 
@@ -33,26 +33,26 @@ pub enum Failure {
     Panic,
     /// The process of the structure ended without a result.
     Crash,
-    /// The structure cannot be built over the mesh, for this reason.
+    /// The reason why the structure cannot be built over the mesh.
     Refused(String),
-    /// The structure declines a ray of the case, for this reason. The result is neither right nor wrong.
+    /// The reason why the structure declines a ray of the case.
     Declined(String),
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayScore {
-    /// Errors by comparison with the exact hits and [`DepthRule::STRICT`].
+    /// Differences from the exact hits, counted by [`DepthRule::STRICT`].
     pub strict_errors: ErrorCounts,
-    /// Wrong depths by [`DepthRule::COARSE`].
+    /// The number of hits whose depth [`DepthRule::COARSE`] rejects.
     pub coarse_depth: u64,
-    /// Comparison with brute force.
+    /// The result of the comparison with brute force.
     pub validation: Validation,
     /// Whether `validation` distinguishes errors of the structure from errors of its triangle test.
     pub knows_structure_errors: bool,
-    /// Any-hit results that contradict closest hits, and batch results that contradict single rays.
+    /// The number of contradictions between two queries of the same ray.
     pub contradictions: u64,
-    /// Hits that differ from the correctly rounded exact hit with the lowest primitive number. An exact test must have
-    /// none.
+    /// The number of results that differ from the correctly rounded exact hit. If the ray hits several primitives at
+    /// the same exact `t`, the lowest primitive number is expected.
     pub inexact: u64,
     /// See [`Answers::slowness`].
     pub slowness: Option<f64>,
@@ -81,13 +81,13 @@ impl CaseTruth {
         Self { set: case.set(rays).map(with_truths), references: BTreeMap::new() }
     }
 
-    /// Scores the results of a structure over the triangle test `test`.
+    /// Scores the results of a structure. `test` is the name of the triangle test of the structure.
     ///
     /// # Errors
     /// If brute force cannot be built over the mesh.
     ///
     /// # Panics
-    /// If there is not one hit per ray of this case.
+    /// If the number of hits differs from the number of rays.
     pub fn score(&mut self, test: &'static str, answers: Answers) -> Result<Score, BuildError> {
         let Some((set, truths)) = &self.set else {
             return Ok(Score::Property(answers.property.unwrap_or_default()));
@@ -127,7 +127,7 @@ impl Score {
         }
     }
 
-    /// Whether the structure is sound and all its hits are right by [`DepthRule::STRICT`].
+    /// Whether the structure completes the case without errors. Triangle-test errors count as errors.
     pub fn is_clean(&self) -> bool {
         match self {
             Self::Rays(score) => score.strict_errors.errors() == 0 && score.is_sound(),
@@ -136,7 +136,7 @@ impl Score {
         }
     }
 
-    /// Whether the structure causes no error. Errors of its triangle test are allowed, and it may decline the case.
+    /// Whether the structure has no errors except triangle-test errors. The structure may decline the case.
     pub fn is_sound(&self) -> bool {
         match self {
             Self::Rays(score) => score.is_sound(),
@@ -151,7 +151,7 @@ impl RayScore {
         self.validation.errors() == 0 && self.contradictions == 0
     }
 
-    /// The worst wrong hit, in a sentence.
+    /// A description of the worst error.
     pub fn example(&self) -> Option<String> {
         self.validation.worst_error().map(ToString::to_string)
     }

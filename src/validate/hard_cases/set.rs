@@ -1,4 +1,4 @@
-//! Mesh and rays of a case.
+//! The mesh and the rays of a hard case.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::validate::Sampler;
 pub struct Set {
     pub mesh: Arc<Mesh>,
     pub rays: Vec<Ray>,
-    /// Valid rays whose time is compared with the time of the invalid `rays`. Empty if `rays` are valid.
+    /// Valid rays, timed for comparison with the invalid `rays`. Empty if `rays` are valid.
     pub ordinary: Vec<Ray>,
 }
 
@@ -32,7 +32,7 @@ pub(super) fn ray_to(origin: Vec3, target: Vec3) -> Ray {
     Ray::new(origin, target - origin)
 }
 
-/// A random triangle with an area. `mesh` must contain one.
+/// A random triangle with an area. `mesh` must contain a triangle with an area.
 pub(super) fn triangle(mesh: &Mesh, sampler: &mut Sampler) -> [Vec3; 3] {
     loop {
         let index = sampler.below(mesh.len()) as u32;

@@ -1,4 +1,4 @@
-//! Checks the numbers, names, rays and expected hits of the catalogue.
+//! Tests of the catalogue of hard cases.
 
 use std::collections::BTreeSet;
 
@@ -54,7 +54,7 @@ fn bits(rays: &[Ray]) -> Vec<u32> {
     rays.iter().flat_map(of_ray).collect()
 }
 
-/// If the hash changes, results cannot be compared with published ones.
+/// If the hash changes, new results are not comparable with published results.
 #[test]
 fn every_machine_makes_the_same_cases() {
     assert!(set_of("nonfinite_verts", FEW).mesh.positions().iter().any(|p| p.abs().max_element() == f32::MAX));
@@ -65,7 +65,7 @@ fn every_machine_makes_the_same_cases() {
             point.to_array().iter().for_each(|x| hasher.update(x.to_bits().to_le_bytes()));
         }
         set.mesh.triangles().iter().flatten().for_each(|index| hasher.update(index.to_le_bytes()));
-        // Hash all NaNs alike.
+        // Replace every NaN by the same number.
         let number = |x: u32| if f32::from_bits(x).is_nan() { u32::MAX } else { x };
         bits(&set.rays).into_iter().for_each(|x| hasher.update(number(x).to_le_bytes()));
     }
@@ -104,7 +104,7 @@ fn what_must_be_hit_is_and_what_must_be_missed_is_not() {
     assert_eq!((hit, missed), (49, 10));
 }
 
-/// Rational arithmetic shares no code with the oracle and the exact test.
+/// The module `rational` shares no code with the oracle.
 #[test]
 fn rational_arithmetic_finds_the_same_truths() {
     let (mut whole, mut hits) = (0, 0);

@@ -1,4 +1,4 @@
-//! The target of libFuzzer: `cargo +nightly fuzz run --fuzz-dir tests/fuzz answers`.
+//! This libFuzzer target runs with `cargo +nightly fuzz run --fuzz-dir tests/fuzz answers`.
 
 #![no_main]
 

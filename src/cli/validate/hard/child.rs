@@ -1,4 +1,4 @@
-//! Runs hard cases in child processes, because a case may panic or hang.
+//! Runs hard cases in child processes, because a structure may panic or hang.
 
 use std::io;
 use std::process::{Command, Output};

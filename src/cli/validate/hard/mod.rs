@@ -83,7 +83,7 @@ fn refusal(score: &Score) -> Option<&str> {
     }
 }
 
-/// Only a runner may refuse a case, because every other structure must build every mesh.
+/// Runners may refuse a case. All other structures must build over every mesh.
 fn status(choice: &Choice, score: &Score, strict: bool) -> Status {
     let is_inexact = choice.triangle_test() == Exact::NAME && score.rays().is_some_and(|rays| rays.inexact > 0);
     let rounds = strict && verdict(score).rounded > 0;

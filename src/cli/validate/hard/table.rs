@@ -1,4 +1,4 @@
-//! Tables of scores of hard cases, with a row per case and a column per structure.
+//! Tables of the scores of hard cases.
 
 use crate::registry::Choice;
 use crate::report::number::{count, figures, plural};

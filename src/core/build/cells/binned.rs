@@ -1,4 +1,5 @@
-//! Searches a few planes of large nodes, and all planes of small nodes.
+//! Chooses split planes. A large node tries only a few planes. A small node tries a plane at each face
+//! of the references' boxes.
 
 use super::config::CellConfig;
 use super::grow::{Content, Context, NodeState};
@@ -18,7 +19,8 @@ pub(crate) enum Binned {
     Fine(Events),
 }
 
-/// The numbers of references that begin and end in each bin, and that lie in each plane.
+/// `begin[i]` counts the references that begin in bin `i`. `end[i]` counts the references that end in bin `i`.
+/// `flat[i]` counts the references that lie in plane `i`.
 struct Counts {
     begin: [u32; PLANES + 1],
     end: [u32; PLANES + 1],
@@ -32,7 +34,7 @@ impl Counts {
             let first = planes.first_bin(r.min(planes.axis));
             let last = planes.last_bin(r.max(planes.axis));
             if first > last {
-                // A flat reference in a plane begins above the plane and ends below the plane.
+                // The reference lies in the plane with the index `last`.
                 counts.flat[last] += 1;
             } else {
                 counts.begin[first] += 1;
@@ -89,9 +91,9 @@ fn along(
     let (areas, min, max) = (SideAreas::new(cell, axis), cell.min[axis], cell.max[axis]);
     let mut best: Option<(f64, Cut)> = None;
     let mut offer = |plane: f32, below: usize, above: usize, flat_below: bool| {
-        // A plane on a face of the cell cuts nothing.
+        // A plane on a face of the cell does not divide the cell.
         if min < plane && plane < max {
-            // Both sides of a plane inside the bounds have references, even if the sample has none there.
+            // A plane strictly inside `range` has at least one reference on each side.
             let least = usize::from(range.0 < plane && plane < range.1);
             let [below, above] = [below, above].map(|count| sample.scaled(count).max(least));
             let cost = model.cell_split(&areas, plane, [below, above]);
@@ -103,7 +105,7 @@ fn along(
     let count = sample.len();
     let candidates = (context.config.candidates as usize).min(count);
     let Some(planes) = Planes::new(axis, range, candidates, sample) else {
-        // All references lie in one plane, or their range is too large or too small for a grid.
+        // If all references lie in one plane, try only this plane.
         if range.0 == range.1 {
             offer(range.0, count, 0, true);
             offer(range.0, 0, count, false);
@@ -147,7 +149,7 @@ impl Content for Binned {
         let sample = Sample::new(&part.references, context.config.sample);
         let mut found = cheapest(context, part, &sample, state);
         if sample.len() < part.references.len() {
-            // The sample only estimates the counts. If the exact counts exceed the budget, search again with all
+            // The counts from a sample are estimates. If the exact counts exceed the budget, search again with all
             // references.
             let affords = |cut: Cut| {
                 let [below, above] = cut.counts(&part.references);
@@ -219,7 +221,8 @@ mod tests {
         }
     }
 
-    /// The sample has only short triangles. All other triangles are long, and a plane across x cuts them.
+    /// The sample contains only the short triangles. A plane at any x between 0 and 1000 cuts all long
+    /// triangles.
     #[test]
     fn a_cut_over_budget_is_searched_again_without_a_sample() {
         let stride = 20;

@@ -4,18 +4,19 @@ use crate::build::sah_cost::CostModel;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CellConfig {
     pub costs: CostModel,
-    /// Nodes of at most this many references try every plane.
+    /// A node with at most this many references tries a plane at each face of the references' boxes.
     pub exact: u32,
-    /// Planes per axis that larger nodes try, in 2..=62.
+    /// Maximum number of planes per axis for nodes with more than `exact` references, in 2..=62. Planes on the
+    /// faces of the node's bounds are not counted.
     pub candidates: u32,
-    /// Maximum number of references in the sample of a larger node; at least 16.
+    /// Maximum number of references in the sample of a node, at least 16.
     pub sample: u32,
 }
 
 impl CellConfig {
     pub const ALL_PLANES: u32 = u32::MAX;
 
-    /// The configuration for a wide tree. A step costs little, because three binary steps become one wide step.
+    /// The configuration for a wide tree.
     pub fn new(quality: Quality) -> Self {
         let (exact, candidates, sample, step) = match quality {
             Quality::Fast => (0, 12, 512, 1.0),

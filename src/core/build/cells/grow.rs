@@ -1,4 +1,4 @@
-//! Grows a KD-tree. A plane rule ([`Content`]) chooses the cuts.
+//! Grows a KD-tree. The [`Content`] of a node chooses the cut.
 
 use rayon::join;
 
@@ -12,18 +12,18 @@ pub(crate) struct Context<'a, C> {
     depth_cap: u32,
 }
 
-/// The conditions for a leaf, in addition to the maximum depth.
+/// Rules that decide whether a node becomes a leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rules {
     /// Nodes with at most this many references are leaves.
     pub leaf: usize,
-    /// A cut is discarded if at least this share of the node's references lies on both sides. `None` discards no cut.
+    /// A cut through at least this share of the node's references is discarded. `None` discards no cut.
     pub threshold: Option<f32>,
-    /// Whether a cut must cost less than testing all triangles.
+    /// Whether a cut must cost less than a leaf.
     pub pays: bool,
-    /// Maximum number of references of all leaves, as a multiple of the root's references.
+    /// Maximum total number of references in the leaves, divided by the number of references of the root.
     pub duplication: f32,
-    /// Whether a cut is progress if one side has all triangles and the other side has fewer.
+    /// Whether a cut counts as progress if only one side has fewer triangles than the node.
     pub one_side_is_progress: bool,
 }
 
@@ -33,7 +33,7 @@ impl Rules {
     }
 }
 
-/// The triangles of a node, with a rule that chooses the plane to cut the node.
+/// The triangles of a node, with a rule that chooses the cut.
 pub(crate) trait Content: Sized + Send {
     type Config: Sync;
 
@@ -42,10 +42,10 @@ pub(crate) trait Content: Sized + Send {
     /// The triangle numbers in ascending order.
     fn ids(&self) -> impl Iterator<Item = u32>;
 
-    /// `None` makes a leaf.
+    /// `None` makes the node a leaf.
     fn choose(&self, context: &Context<Self::Config>, state: &NodeState) -> Option<Cut>;
 
-    /// The contents below and above the cut. If the rule discards the cut, the error returns the undivided content.
+    /// The contents below and above the cut. If the cut is discarded, the error contains the undivided content.
     fn divide(self, context: &Context<Self::Config>, state: &NodeState, cut: Cut) -> Result<(Self, Self), Self>;
 
     fn may_divide(&self, _context: &Context<Self::Config>) -> bool {
@@ -57,15 +57,15 @@ pub(crate) trait Content: Sized + Send {
 pub(crate) struct NodeState {
     pub cell: Aabb,
     pub depth: u32,
-    /// The number of consecutive splits without progress above this node.
+    /// Number of consecutive splits without progress, up to and including the parent's split.
     stalled: u32,
-    /// The maximum number of references of all leaves below this node.
+    /// Maximum total number of references in the leaves of this subtree.
     budget: f64,
 }
 
-/// A tree that grows depth first.
+/// A tree that grows in depth-first order.
 pub(crate) trait Tree<C>: Default + Send {
-    /// Whether empty leaves are omitted. The other child then replaces the parent.
+    /// Whether empty leaves are omitted. The sibling of an empty leaf then replaces the parent.
     const SKIPS_EMPTY: bool;
 
     fn len(&self) -> usize;
@@ -75,7 +75,7 @@ pub(crate) trait Tree<C>: Default + Send {
     /// Appends an inner node without its children.
     fn open(&mut self);
 
-    /// The first child of `inner` is the next node. The second child is `second`.
+    /// The children of `inner` are the nodes `inner + 1` and `second`.
     fn close(&mut self, inner: usize, cut: Cut, second: usize);
 
     fn append(&mut self, other: Self);
@@ -89,14 +89,14 @@ impl<'a, C> Context<'a, C> {
     }
 }
 
-/// The maximum depth of a leaf: 8 + 1.3 log2 n, as in pbrt (Pharr, Jakob, Humphreys).
+/// Maximum depth of a leaf, similar to 8 + 1.3 log2 n in pbrt (Pharr, Jakob, Humphreys).
 const fn depth_cap(triangles: usize) -> u32 {
-    // The number of binary digits replaces log2 n, because a library function may differ between platforms.
+    // The number of binary digits replaces log2 n.
     let log2 = usize::BITS - if triangles > 1 { triangles } else { 1 }.leading_zeros();
     8 + log2 * 13 / 10
 }
 
-/// An upper bound on the depth cap of every mesh.
+/// An upper bound on `depth_cap` for all meshes.
 pub(crate) const DEEPEST: u32 = depth_cap(u32::MAX as usize);
 const _: () = assert!(DEEPEST == 49);
 
@@ -156,7 +156,7 @@ fn subdivide<C: Content, T: Tree<C>>(
     tree.close(inner, cut, second);
 }
 
-/// An error returns the undivided content, which becomes a leaf.
+/// The error contains the undivided content for a leaf.
 fn try_divide<C: Content>(
     context: &Context<C::Config>,
     content: C,
@@ -186,14 +186,13 @@ impl NodeState {
         !context.rules.discards(below + above - count, count) && self.affords(below, above)
     }
 
-    /// Whether this split makes progress, or is at most the second consecutive split without progress.
+    /// Allows at most two consecutive splits without progress.
     pub fn progresses<C>(&self, context: &Context<C>, count: usize, below: usize, above: usize) -> bool {
         context.rules.is_progress(count, below, above) || self.stalled < 2
     }
 }
 
 impl Rules {
-    /// With `one_side_is_progress`, one side may have all triangles, because the plane still makes the cell smaller.
     fn is_progress(&self, count: usize, below: usize, above: usize) -> bool {
         let most = if self.one_side_is_progress { below.min(above) } else { below.max(above) };
         most < count

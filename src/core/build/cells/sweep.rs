@@ -1,12 +1,10 @@
-//! Finds the cheapest SAH plane by a sweep over sorted events. Children inherit the order, so a tree takes O(n log n)
-//! time.
+//! Finds the cheapest SAH plane by a sweep over sorted events. A child inherits the order of its parent's events.
 //!
 //! # References
 //! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on
 //! Interactive Ray Tracing 2006.
 //!
-//! As in the paper, a triangle in the plane goes only to the cheaper side. No hit is lost, because the traversal visits
-//! both sides of a plane that it crosses. The budget of references is not in the paper.
+//! As in the paper, a triangle in the split plane is assigned only to the cheaper side.
 
 use rayon::prelude::*;
 
@@ -21,11 +19,11 @@ use crate::build::sah_cost::{CostModel, SideAreas};
 use crate::geometry::Aabb;
 
 /// The start or end of a reference on an axis, or the plane of a flat reference. Bits from high to low: coordinate
-/// (32), kind (2), number of the reference (30). The numeric order is the order of the sweep.
+/// (32), kind (2), index of the reference (30). The sweep visits the events in ascending numeric order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Event(u64);
 
-/// The kinds of events, in the order of the sweep at one coordinate.
+/// The kinds of events. Events with equal coordinates are sorted by kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 enum Kind {
@@ -61,7 +59,7 @@ impl Event {
     }
 }
 
-/// References in ascending order of triangle numbers. The events of each axis are in the order of the sweep.
+/// The references are in ascending order of triangle numbers. The events of each axis are sorted.
 pub(crate) struct Events {
     pub(super) references: Vec<Reference>,
     axes: [Vec<Event>; 3],
@@ -103,7 +101,7 @@ impl Events {
             let [end, planar, start] = counts;
             above -= end + planar;
 
-            // A plane on a face of the cell cuts nothing.
+            // A plane on a face of the cell does not divide the cell.
             if min < plane && plane < max {
                 let mut offer = |below, above, flat_below| {
                     let cost = model.cell_split(&areas, plane, [below, above]);
@@ -121,7 +119,7 @@ impl Events {
         best
     }
 
-    /// The references on the side `here` (0: below, 1: above), clipped to `cell`. `sides` has an entry per reference.
+    /// The references on side `here` (0: below, 1: above), clipped to `cell`. `sides` has an entry per reference.
     fn part(&self, context: &Context<CellConfig>, sides: &[[bool; 2]], here: usize, cell: &Aabb) -> Self {
         let count = sides.iter().filter(|side| side[here]).count();
         let mut references = Vec::with_capacity(count);
@@ -154,7 +152,7 @@ impl Events {
     }
 }
 
-/// The first reference has the number `first`.
+/// The events of `references[i]` refer to the index `first + i`.
 fn push_events(references: &[Reference], first: u32, axis: usize, events: &mut Vec<Event>) {
     for (name, reference) in (first..).zip(references) {
         let (lo, hi) = (reference.min(axis), reference.max(axis));

@@ -8,10 +8,10 @@ use crate::build::cut::Cut;
 use crate::build::part::{Part, halves};
 use crate::geometry::{Aabb, Mesh};
 
-/// Maximum number of references of a leaf. A cell with more references becomes several leaves.
+/// Maximum number of references in a leaf. A cell with more references becomes several leaves.
 const MOST: usize = 64;
 
-/// `duplication` is the maximum mean number of references per triangle.
+/// `duplication` limits the mean number of references per triangle.
 pub(crate) fn build(mesh: &Mesh, config: &CellConfig, duplication: f32) -> BinaryTree {
     let context = Context::new(mesh, Rules::sah(duplication), config);
     grow(&context, Binned::all(&context))
@@ -38,7 +38,7 @@ impl BinaryTree {
         self.nodes.push(BinaryNode { bounds, content });
     }
 
-    /// Makes the node after `inner` and the node `second` the children of `inner`.
+    /// Makes the nodes `inner + 1` and `second` the children of `inner`.
     fn join(&mut self, inner: usize, second: usize) {
         let nodes = &mut self.nodes;
         let bounds = nodes[inner + 1].bounds.union(nodes[second].bounds);
@@ -46,7 +46,7 @@ impl BinaryTree {
     }
 }
 
-/// A leaf has the tight box of its clipped triangles instead of the cell.
+/// A leaf stores a tight box around its clipped triangles.
 impl Tree<Binned> for BinaryTree {
     const SKIPS_EMPTY: bool = true;
 

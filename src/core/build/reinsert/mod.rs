@@ -17,7 +17,8 @@ use crate::build::binary_tree::BinaryTree;
 use links::Links;
 use search::Search;
 
-/// Number of nodes in the first batch of a pass. Early batches are small because moves of large boxes often conflict.
+/// Number of nodes in the first batch of a pass. Later batches are larger because moves of small boxes rarely affect
+/// other moves.
 const BATCH: usize = 64;
 
 /// The first pass processes this share of all nodes, in descending order of box area. Pass `k` processes the first
@@ -56,8 +57,8 @@ pub(crate) fn reinsert(tree: BinaryTree, passes: u32) -> BinaryTree {
 
 /// The `count` largest nodes below the root, in descending order of box area.
 fn largest(links: &Links, count: usize) -> Vec<u32> {
-    // The ratio of two areas fits an `f32` at any scale of the mesh. Ratios are not negative, so the bits have the
-    // order of the ratios.
+    // The ratio of two areas fits an `f32` at any scale of the mesh. For non-negative floats, an integer comparison of
+    // the bits gives the same order.
     let whole = Some(links[0].area).filter(|&whole| whole > 0.0).unwrap_or(1.0);
     let key = |at: u32| {
         let share = (links[at].area / whole) as f32;

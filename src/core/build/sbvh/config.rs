@@ -16,7 +16,7 @@ pub(crate) struct SbvhConfig {
     pub splits: Splits,
     /// Number of candidate planes or bins per axis. In 2..=62.
     pub candidates: u32,
-    /// Nodes with at most this many references try every object split.
+    /// In nodes with at most this many references, object splits are found by sorting instead of binning.
     pub exact: u32,
     /// Nodes with at most this many references clip triangles to find spatial splits. Larger nodes clip only boxes.
     pub sliced: u32,
@@ -32,7 +32,7 @@ pub(crate) struct SbvhConfig {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Splits {
-    /// Leaves are disjoint if a spatial split exists for every node with more than `LEAF` references.
+    /// An object split is only a fallback for a node with more than `LEAF` references.
     Spatial,
     SpatialAndObject,
     /// No triangle is in two leaves.

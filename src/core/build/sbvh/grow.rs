@@ -16,7 +16,7 @@ use crate::triangle::BLOCK;
 #[derive(Clone, Copy, Debug)]
 struct Limits {
     depth: u32,
-    /// The maximum number of references in all leaves below the node.
+    /// The maximum total number of references in the leaves below the node.
     budget: f64,
 }
 
@@ -38,7 +38,7 @@ pub(crate) fn build(mesh: &Mesh, config: &SbvhConfig) -> BinaryTree {
     tree
 }
 
-/// Appends the subtree over `part`. Returns the cost of the subtree, multiplied by the half area of its box.
+/// Appends the subtree over `part`. Returns the subtree's cost, multiplied by the half area of the subtree's box.
 fn grow(context: &Context, part: Part, limits: Limits, tree: &mut BinaryTree, slots: &mut Slots) -> f64 {
     let Part { references, extent } = part;
     let (area, count) = (extent.half_area(), references.len());
@@ -136,8 +136,8 @@ fn cheapest(
 
 /// The extra cost of an object split whose boxes overlap. A ray through the overlap usually visits both boxes.
 ///
-/// The extra cost is 0 if the spatial split adds more than `count / 16` references. Added references reduce the budget
-/// of the nodes below.
+/// The extra cost is 0 if the spatial split adds more than `count / 16` references. This rule keeps more of the
+/// budget for the nodes below.
 fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial: &Offer<Split>) -> f64 {
     if count < 4 * BLOCK || spatial.counts.iter().sum::<usize>() > count + count / 16 {
         return 0.0;

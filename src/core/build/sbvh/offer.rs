@@ -30,8 +30,8 @@ impl<'a> Context<'a> {
         area > LARGE * self.root_area
     }
 
-    /// The cost of a leaf, for comparison with the cost of a split. A leaf of one block in a large box also costs a
-    /// step. The step of the leaf cancels the step of the split.
+    /// The cost of a leaf, for comparison with the cost of a split. The cost of a leaf of one block in a large box
+    /// includes a traversal step. The cost of a split also includes a traversal step.
     pub fn unsplit_cost(&self, area: f64, count: usize) -> f64 {
         let leaf = self.costs.box_leaf(area, count);
         if count <= BLOCK && self.is_large(area) { self.costs.box_node(area, leaf) } else { leaf }

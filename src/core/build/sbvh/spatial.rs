@@ -12,20 +12,18 @@ use crate::build::sample::Sample;
 use crate::build::slices::slice;
 use crate::geometry::{Aabb, Mesh};
 
-/// Bins and planes in ascending order. Slot `2 i` is bin `i`, and slot `2 i + 1` is plane `i`.
+/// Maximum number of slots. Slot `2 i` is bin `i`. Slot `2 i + 1` is plane `i`.
 const SLOTS: usize = 2 * PLANES + 2;
 
-/// The references that begin and end in each slot: their number and the union of their boxes.
-///
-/// The box of all parts below a plane is a union of boxes, cut off at the plane. The union has the boxes of the
-/// references that begin below the plane. A reference therefore updates only the slots in which it begins and ends. A
-/// sliced triangle instead updates the extents of every bin that it reaches.
+/// The arrays have one element per slot.
 pub(super) struct Slots {
+    /// The number of references that begin in the slot.
     begin: [u32; SLOTS],
+    /// The number of references that end in the slot.
     end: [u32; SLOTS],
     begin_extents: [Extent; SLOTS],
     end_extents: [Extent; SLOTS],
-    /// For each slot, the box of the references that end in later slots.
+    /// The union of `end_extents` of all higher slots.
     above: [Extent; SLOTS],
 }
 
@@ -47,7 +45,7 @@ impl Slots {
     fn add<const AXIS: usize, const SLICED: bool>(&mut self, mesh: &Mesh, sample: &Sample, planes: &Planes) {
         for r in sample.iter() {
             let (first, last) = (planes.first_bin(r.min(AXIS)), planes.last_bin(r.max(AXIS)));
-            // If `first > last`, the reference lies in a plane. Then `begin` and `end` are the slot of this plane.
+            // If `first > last`, the reference lies in plane `last`. Then `begin` and `end` equal `2 * last + 1`.
             let (begin, end) = (first + first.min(last), last + last.max(first));
             self.begin[begin] += 1;
             self.end[end] += 1;
@@ -64,7 +62,7 @@ impl Slots {
         }
     }
 
-    /// The number in the result is the index of the plane.
+    /// The `usize` in the result is the index of the plane.
     fn sweep(&mut self, context: &Context, planes: &Planes, node: &Node) -> Option<Offer<(Cut, usize)>> {
         let slots = 2 * planes.bins() - 1;
         let mut above = Extent::EMPTY;
@@ -73,7 +71,6 @@ impl Slots {
             self.above[slot - 1] = above;
         }
 
-        // Each plane has two candidates: references in the plane go above (even `slot`) or below (odd `slot`).
         let mut best: Option<Offer<(Cut, usize)>> = None;
         let mut below = Extent::EMPTY;
         let (mut begun, mut ended) = (0, 0);
@@ -100,7 +97,7 @@ impl Slots {
     }
 }
 
-/// Both sides together have at most `budget` references.
+/// The two sides of the cut together have at most `budget` references.
 pub(super) fn cheapest_cut(
     context: &Context,
     references: &[Reference],
@@ -112,7 +109,7 @@ pub(super) fn cheapest_cut(
     let some = Node { sample: Sample::new(references, context.config.sample), ..all };
     let mut offer = some.cheapest(context, extent, slots)?;
     if some.sample.len() < references.len() {
-        // A sample only estimates the numbers of references, so count the references.
+        // The counts of a sample are estimates, so count all references.
         offer.counts = offer.split.counts(references);
         if !some.affords(offer.counts) {
             return all.cheapest(context, extent, slots);

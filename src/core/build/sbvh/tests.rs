@@ -65,8 +65,7 @@ fn references_and_depth_stay_bounded() {
                 leaves.iter().for_each(|(_, ids)| ids.iter().for_each(|&id| seen[id as usize] = true));
                 assert!(mesh.solid().all(|id| seen[id as usize]), "{name} {config:?}");
 
-                // The builder chooses splits on at most 16 + 2 (log2 n + 1) levels of a path. Below them, it halves the
-                // references.
+                // At depths of `16.0 + 2.0 * log2` or more, the builder halves the references of a node.
                 let log2 = (count as f64).log2().ceil() + 1.0;
                 let halvings = (f64::from(duplication) * count as f64).log2();
                 let most = 16.0 + 2.0 * log2 + halvings;
@@ -186,7 +185,7 @@ fn no_cut_and_no_grouping_by_centres_is_cheaper_than_the_one_that_is_chosen() {
             let context = Context::new(&mesh, &config);
             let found = cheapest_cut(&context, &part.references, part.extent, f64::INFINITY, &mut Slots::new());
             let (found, least) = (found.unwrap().cost, least_cut(&context, &mesh, &part));
-            // The builder computes slices in `f32`. The naive search clips triangles in `f64` and rounds outward.
+            // The builder computes slices in `f32`. `least_cut` clips triangles in `f64`.
             let slack = if config.sliced == 0 { 0.0 } else { 1e-5 * least };
             assert!((found - least).abs() <= slack, "{found} instead of {least}");
         }

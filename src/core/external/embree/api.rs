@@ -12,11 +12,12 @@ const NAMES: [&str; 4] = ["libembree4.so.4", "libembree4.so", "libembree4.4.dyli
 
 pub type Handle = *mut c_void;
 
-/// Receives the pointer passed to `rtcSetDeviceErrorFunction`, an error code and a message.
+/// The first argument is the pointer passed to `rtcSetDeviceErrorFunction`. The other arguments are an error code and a
+/// message.
 pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 
-/// Receives the pointer passed to `rtcSetDeviceMemoryMonitorFunction`, the change of memory in bytes, and whether the
-/// change has happened. Returns false to refuse the change.
+/// The first argument is the pointer passed to `rtcSetDeviceMemoryMonitorFunction`. The second argument is the change
+/// of memory in bytes. The third argument is true if the change has happened. Returns false to refuse the change.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
 /// The options of a query, passed as `RTCIntersectArguments` or `RTCOccludedArguments`. `rest` must be zero.
@@ -47,7 +48,8 @@ macro_rules! api {
 
         impl Api {
             /// # Safety
-            /// A library with these symbols must be Embree. A caller may call only functions with the declared types.
+            /// If `library` has these symbols, `library` must be Embree. A function of the result may be called only
+            /// if the function in `library` has the declared type.
             unsafe fn find(library: &Library) -> Result<Self, libloading::Error> {
                 // SAFETY: by the contract of this function, the symbols are functions of Embree.
                 unsafe { Ok(Self { $($field: *library.get(concat!($symbol, "\0").as_bytes())?,)* }) }

@@ -10,7 +10,6 @@ use crate::geometry::Mesh;
 
 #[derive(Default)]
 struct Monitor {
-    /// The first error since the last call of `refusal`.
     error: Mutex<Option<String>>,
     bytes: AtomicIsize,
 }
@@ -18,26 +17,25 @@ struct Monitor {
 pub struct Scene {
     pub(super) api: &'static Api,
     device: Handle,
-    /// The scene, committed.
     pub(super) handle: Handle,
-    /// Embree stores a pointer to the monitor. Moving an `Arc` keeps this pointer valid; moving a `Box` does not.
+    /// Embree stores a pointer to the monitor. Moving the `Arc` keeps this pointer valid.
     monitor: Arc<Monitor>,
 }
 
-// SAFETY: any thread may use and release objects of Embree, and many may query a committed scene at once.
+// SAFETY: any thread may use and release objects of Embree.
 unsafe impl Send for Scene {}
-// SAFETY: as for `Send`; `Monitor` is made of an atomic and a lock.
+// SAFETY: many threads may query a committed scene at once. `Monitor` contains only an atomic and a lock.
 unsafe impl Sync for Scene {}
 
 /// # Safety
-/// `monitor` is the pointer registered with this function, and outlives the device. `text` is null or a C string.
+/// `monitor` must point to a live `Monitor`. `text` must be null or point to a C string.
 unsafe extern "C" fn on_error(monitor: *mut c_void, _: c_int, text: *const c_char) {
     // SAFETY: by the contract of this function the monitor lives.
     let monitor = unsafe { &*monitor.cast::<Monitor>() };
     let sentence = if text.is_null() {
         "it gives no reason".into()
     } else {
-        // SAFETY: by the contract of this function `text` is a C string, because it is not null.
+        // SAFETY: `text` is not null. By the contract of this function `text` points to a C string.
         unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
     };
     if let Ok(mut error) = monitor.error.lock() {
@@ -46,7 +44,7 @@ unsafe extern "C" fn on_error(monitor: *mut c_void, _: c_int, text: *const c_cha
 }
 
 /// # Safety
-/// `monitor` is the pointer registered with this function, and outlives the device.
+/// `monitor` must point to a live `Monitor`.
 unsafe extern "C" fn on_memory(monitor: *mut c_void, bytes: isize, _: bool) -> bool {
     // SAFETY: by the contract of this function the monitor lives.
     unsafe { &*monitor.cast::<Monitor>() }.bytes.fetch_add(bytes, Ordering::Relaxed);
@@ -58,8 +56,8 @@ impl Scene {
     pub fn new(mesh: &Mesh, ids: &[u32], flags: c_int, quality: c_int, device: &str) -> Result<Self, BuildError> {
         let api = api().map_err(BuildError::Unavailable)?;
         let options = CString::new(device).expect("the configuration contains no zero byte");
-        // SAFETY: the calls and their order follow Embree's manual. The monitor registered here is stored in `scene`.
-        // Even after a failure, `scene` releases the device before it drops the monitor.
+        // SAFETY: the order of the calls follows Embree's manual. `scene` owns the registered monitor. `Scene::drop`
+        // releases the device before the monitor is dropped.
         unsafe {
             let device = (api.new_device)(options.as_ptr());
             if device.is_null() {
@@ -85,8 +83,8 @@ impl Scene {
     /// Embree allocates, pads and aligns the buffers.
     fn attach(&self, mesh: &Mesh, ids: &[u32], quality: c_int) -> Result<(), BuildError> {
         let (api, positions) = (self.api, mesh.positions());
-        // SAFETY: the buffers are checked for null, and have space for the items of 12 bytes that are written. The
-        // scene keeps the geometry alive after its release here.
+        // SAFETY: the code has checked both buffers for null. `vertices` has space for all `positions`. `indices` has
+        // space for one triangle per id. The scene keeps a reference to the attached geometry.
         unsafe {
             let geometry = (api.new_geometry)(self.device, TRIANGLES);
             let vertices: *mut Vec3 = (api.new_buffer)(geometry, VERTICES, 0, FLOAT3, 12, positions.len()).cast();
@@ -112,7 +110,7 @@ impl Scene {
         Some(BuildError::Mesh(format!("Embree reports an error: {error}")))
     }
 
-    /// All memory of the device: nodes, triangles, buffers.
+    /// All memory of the device, in bytes.
     pub fn bytes(&self) -> usize {
         self.monitor.bytes.load(Ordering::Relaxed).max(0) as usize
     }
@@ -120,7 +118,8 @@ impl Scene {
 
 impl Drop for Scene {
     fn drop(&mut self) {
-        // SAFETY: `new` has created both objects, and only `drop` releases them; the monitor is dropped later.
+        // SAFETY: `new` has created the scene and the device. Only `drop` releases the scene and the device. The
+        // monitor is dropped later.
         unsafe {
             (self.api.release_scene)(self.handle);
             (self.api.release_device)(self.device);

@@ -1,10 +1,6 @@
 //! [Embree](https://github.com/RenderKit/embree) 4, a library for renderers, loaded at run time. The library is at the
 //! path in `SAHARA_EMBREE` or on the system's search path.
 //!
-//! Embree's flag `ROBUST` changes the triangle test and the box test, so there are two structures. Embree's triangle
-//! test runs only inside a scene. To decide a disputed hit, [`alone`] builds a scene of one triangle. The adapter
-//! cannot see the tree and reports one leaf.
-//!
 //! # References
 //! Wald, Woop, Benthin, Johnson, Ernst: Embree: a kernel framework for efficient CPU ray tracing. SIGGRAPH 2014.
 
@@ -24,11 +20,11 @@ use api::Arguments;
 use device::Scene;
 use rays::Packet;
 
-/// A scene of Embree. By default, the triangle test is Möller-Trumbore. With `ROBUST` (`RTC_SCENE_FLAG_ROBUST`), the
-/// triangle test is Plücker and the boxes are widened.
+/// A scene of Embree. `ROBUST` sets `RTC_SCENE_FLAG_ROBUST`. Without `ROBUST`, the triangle test is Möller-Trumbore.
+/// With `ROBUST`, the triangle test is Plücker.
 pub struct Embree<const ROBUST: bool> {
     scene: Scene,
-    /// For each triangle of the scene, its number in the mesh.
+    /// Triangle `i` of the scene is triangle `ids[i]` of the mesh.
     ids: Vec<u32>,
     packet: Lanes,
     arguments: Arguments,
@@ -48,7 +44,7 @@ pub struct EmbreeConfig {
     pub isa: Isa,
 }
 
-/// The build qualities of Embree for static scenes, as numbered in its headers.
+/// The build qualities of Embree for static scenes. The values are from Embree's enumeration `RTCBuildQuality`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quality {
@@ -63,16 +59,16 @@ pub enum Quality {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "u32", into = "u32")]
 pub enum Lanes {
-    /// `rtcIntersect1`.
+    /// One ray.
     #[default]
     One = 1,
-    /// `rtcIntersect8`, for consecutive rays of a batch.
+    /// Eight consecutive rays.
     Eight = 8,
-    /// `rtcIntersect16`, for consecutive rays of a batch.
+    /// Sixteen consecutive rays.
     Sixteen = 16,
 }
 
-/// The coherence of the rays of a packet, as query flags.
+/// The coherence of the rays of a packet. The values are query flags of Embree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rays {
@@ -90,7 +86,7 @@ pub enum Isa {
     /// All instructions of the processor.
     #[default]
     Native,
-    /// At most AVX2.
+    /// Instruction sets up to AVX2.
     Avx2,
 }
 
@@ -190,18 +186,19 @@ impl<const ROBUST: bool> Accel for Embree<ROBUST> {
         }
     }
 
-    /// Embree's memory monitor counts the bytes, including the buffers of corners.
+    /// Embree's memory monitor counts the bytes of `other`.
     fn footprint(&self) -> Footprint {
         let references = size_of_val(&self.ids[..]);
         Footprint { references, other: self.scene.bytes(), ..Footprint::default() }
     }
 
+    /// The adapter cannot read Embree's tree.
     fn shape(&self) -> TreeShape {
         TreeShape::one_leaf(self.ids.len())
     }
 }
 
-/// The `t` of Embree's triangle test, from a scene that contains only this triangle.
+/// The `t` of the closest hit in a scene that contains only the triangle `corners`.
 pub fn alone<const ROBUST: bool>(ray: &Ray, corners: [Vec3; 3]) -> Option<f32> {
     let mesh = Arc::new(Mesh::new(corners.into(), vec![[0, 1, 2]]).ok()?);
     let config = EmbreeConfig { quality: Quality::Medium, ..Default::default() };

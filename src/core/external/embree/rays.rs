@@ -1,6 +1,6 @@
-//! Rays in Embree's format: one, eight or sixteen.
+//! Rays in Embree's format, in packets of one, eight or sixteen.
 //!
-//! A query overwrites the ends of the ray intervals (`tfar`), so each query gets a copy of its rays.
+//! A query overwrites `t_far`, so each query gets a copy of the rays.
 
 use std::ffi::c_int;
 use std::mem::offset_of;
@@ -25,7 +25,7 @@ struct RayLanes<const LANES: usize> {
     flags: [u32; LANES],
 }
 
-/// `RTCRayHit`, `RTCRayHit8` or `RTCRayHit16`, with space for the additions of later versions of Embree 4.
+/// `RTCRayHit`, `RTCRayHit8` or `RTCRayHit16`. Early versions of Embree 4 use only the first row of `instances`.
 #[repr(C, align(64))]
 struct Query<const LANES: usize> {
     rays: RayLanes<LANES>,
@@ -40,7 +40,7 @@ const _: () = assert!(offset_of!(Query<1>, normal) == 48 && size_of::<Query<1>>(
 const _: () = assert!(offset_of!(Query<8>, normal) == 384 && size_of::<Query<8>>() >= 672);
 const _: () = assert!(offset_of!(Query<16>, normal) == 768 && size_of::<Query<16>>() == 1344);
 
-/// At most `LANES` rays; `LANES` is 1, 8 or 16. Queries skip invalid rays.
+/// At most `LANES` rays. `LANES` is 1, 8 or 16. Queries skip invalid rays.
 #[repr(C, align(64))]
 pub struct Packet<const LANES: usize> {
     /// -1 in lanes with a valid ray, otherwise 0.
@@ -69,14 +69,14 @@ impl<const LANES: usize> Packet<LANES> {
                 packet.direction[axis][lane] = ray.direction[axis];
             }
             packet.t_near[lane] = t_min;
-            // Embree's interval includes its end.
+            // Embree accepts hits at exactly `t_far`. The end `t_max` is exclusive.
             packet.t_far[lane] = if t_max == f32::INFINITY { t_max } else { t_max.next_down() };
             valid[lane] = -1;
         }
         Self { valid, rays: packet }
     }
 
-    /// For each lane, the `t` and the triangle number of the closest hit of its ray.
+    /// The `t` and the primitive number of the closest hit in each lane.
     #[inline]
     pub fn closest(
         &self,
@@ -93,7 +93,7 @@ impl<const LANES: usize> Packet<LANES> {
         };
         let (api, valid, rays) = (scene.api, self.valid.as_ptr(), (&raw mut query).cast());
         // SAFETY: `Scene::new` has committed the scene. `valid` and `query` have the alignment that Embree requires.
-        // `valid` and `query` are at least as large as the types of Embree 4 (asserted at `Query`).
+        // `valid` has one item per lane. `query` is at least as large as Embree's type (see the assertions at `Query`).
         unsafe {
             match LANES {
                 1 if self.valid[0] == 0 => {}
@@ -113,7 +113,7 @@ impl<const LANES: usize> Packet<LANES> {
         struct Aligned<R>(R);
         let mut query = Aligned(self.rays);
         let (api, valid, rays) = (scene.api, self.valid.as_ptr(), (&raw mut query).cast());
-        // SAFETY: as in `closest`; this query writes no hit.
+        // SAFETY: as in `closest`. The `occluded` functions access only rays.
         unsafe {
             match LANES {
                 1 if self.valid[0] == 0 => {}

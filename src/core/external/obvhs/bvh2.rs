@@ -15,7 +15,8 @@ use crate::accel::{Observer, Part, TreeShape};
 
 const _: () = assert!(size_of::<Bvh2Node>() == 32);
 
-/// The builder is PLOC with reinsertion. The feature `small_bvh2_node` gives nodes of 32 bytes.
+/// The builder is PLOC. All presets except `fastest` also use reinsertion. The feature `small_bvh2_node` of obvhs gives
+/// nodes of 32 bytes.
 ///
 /// # References
 /// Meister, Bittner: Parallel locally-ordered clustering for bounding volume hierarchy construction, 2018; Parallel
@@ -38,7 +39,7 @@ impl Tree for Bvh2 {
         })
     }
 
-    /// Takes the steps of obvhs' traversal, without assertions and with an observer.
+    /// Visits nodes in the same order as the traversal of obvhs.
     ///
     /// # Safety
     /// As for [`Tree::walk`].
@@ -50,7 +51,7 @@ impl Tree for Bvh2 {
         observer: &mut impl Observer,
     ) -> Option<RayHit> {
         fast_stack!(u32, (96, 192), self.max_depth, stack, {
-            // SAFETY: `leads_inside` holds by the contract of this function.
+            // SAFETY: `descend` has the same contract as this function.
             unsafe { descend::<ANY, _>(&self.nodes, &mut stack, ray, test, observer) }
         })
     }
@@ -69,7 +70,7 @@ impl Tree for Bvh2 {
 }
 
 /// # Safety
-/// As for [`Tree::walk`] of the tree with these `nodes`.
+/// As for [`Tree::walk`] on the tree that contains `nodes`.
 #[inline(always)]
 unsafe fn descend<const ANY: bool, O: Observer>(
     nodes: &[Bvh2Node],
@@ -103,7 +104,8 @@ unsafe fn descend<const ANY: bool, O: Observer>(
     observer.inner();
     let mut first = root.first_index;
     loop {
-        // SAFETY: a node links to `first` and the next node. Both nodes exist by the contract of this function.
+        // SAFETY: `first` and `first + 1` are the children of an inner node. The contract of this function guarantees
+        // that all children exist.
         let [mut near, mut far] =
             unsafe { [nodes.get_unchecked(first as usize), nodes.get_unchecked(first as usize + 1)] };
         let (mut near_t, mut far_t) = (near.aabb().intersect_ray(&ray), far.aabb().intersect_ray(&ray));
@@ -112,7 +114,7 @@ unsafe fn descend<const ANY: bool, O: Observer>(
             mem::swap(&mut near, &mut far);
         }
 
-        // Leaves are searched immediately, so a far leaf is searched before the subtree of a near inner node.
+        // A far leaf is searched before the subtree of a near inner node.
         let mut enters = |node: &Bvh2Node, t: f32, ray: &mut PreparedRay, observer: &mut O| {
             let meets = t < ray.tmax;
             if meets && node.is_leaf() {

@@ -13,7 +13,7 @@ use obvhs::triangle::Triangle;
 use super::{Tree, aabb};
 use crate::accel::{Observer, Part, TreeShape};
 
-/// Eight-wide nodes, compressed to 80 bytes; at most three triangles per leaf.
+/// A node of 80 bytes has up to eight children. A leaf has at most three triangles.
 ///
 /// # References
 /// Ylitie, Karras, Laine: Efficient incoherent ray traversal on GPUs through compressed wide BVHs. HPG 2017.
@@ -28,7 +28,7 @@ impl Tree for CwBvh {
         (&mut self.nodes, &mut self.primitive_indices)
     }
 
-    /// A leaf is encoded by the offset of its first triangle and one bit per triangle.
+    /// For a leaf, `child_meta` contains the offset of the first triangle and one bit per triangle.
     fn leads_inside(&self, triangles: usize) -> bool {
         self.nodes.iter().all(|node| {
             (0..8).filter(|&child| !node.is_child_empty(child)).all(|child| {
@@ -43,8 +43,7 @@ impl Tree for CwBvh {
         })
     }
 
-    /// Traverses with the macro of obvhs, without bounds checks of nodes. The observer counts inner nodes and triangles
-    /// but no leaves, because a leaf is stored in its parent.
+    /// Runs the macro `traverse!` of obvhs without bounds checks of nodes. The observer does not count leaves.
     ///
     /// # Safety
     /// As for [`Tree::walk`].
@@ -58,8 +57,8 @@ impl Tree for CwBvh {
         let mut hit = RayHit::none();
         let mut state = self.new_traversal(ray.direction);
         let mut node;
-        // SAFETY: the traversal begins at the root, if it exists, and continues only to children. All children exist,
-        // because `leads_inside` holds by the contract of this function.
+        // SAFETY: the traversal of an empty tree visits no node. Other traversals visit only the root and children. All
+        // children exist by the contract of this function.
         let tree = unsafe { UncheckedTree::new(&self.nodes) };
         traverse!(
             tree,
@@ -83,7 +82,6 @@ impl Tree for CwBvh {
         (hit.t < f32::INFINITY).then_some(hit)
     }
 
-    /// Boxes of children are rounded outward to a grid of 256 cells per axis.
     fn shape(&self) -> TreeShape {
         let root = (!self.nodes.is_empty()).then(|| (NodeOrLeaf::Node(0), aabb(self.total_aabb)));
         TreeShape::of(root, |place, _| match place {
@@ -109,7 +107,7 @@ enum NodeOrLeaf {
     Leaf(u32),
 }
 
-/// The tree that the macro `traverse!` of obvhs receives.
+/// The macro `traverse!` of obvhs receives this tree.
 struct UncheckedTree<'a> {
     nodes: UncheckedNodes<'a>,
 }
@@ -118,7 +116,7 @@ struct UncheckedNodes<'a>(&'a [CwBvhNode]);
 
 impl<'a> UncheckedTree<'a> {
     /// # Safety
-    /// Only indices of existing nodes may be used.
+    /// Every index into the field `nodes` must be below the number of nodes.
     unsafe fn new(nodes: &'a [CwBvhNode]) -> Self {
         Self { nodes: UncheckedNodes(nodes) }
     }
@@ -130,7 +128,7 @@ impl Index<usize> for UncheckedNodes<'_> {
     #[inline(always)]
     fn index(&self, at: usize) -> &CwBvhNode {
         debug_assert!(at < self.0.len());
-        // SAFETY: by the contract of `UncheckedTree::new` only indices of existing nodes are used.
+        // SAFETY: by the contract of `UncheckedTree::new`, `at` is below the number of nodes.
         unsafe { self.0.get_unchecked(at) }
     }
 }

@@ -10,7 +10,7 @@ use crate::simd::Lanes;
 use crate::triangle::decided_at_once::decided_at_once;
 use crate::triangle::{Depth, TriangleTest};
 
-/// A triangle test in the format of obvhs. It returns infinity for a miss and for a hit before the interval.
+/// A triangle test for the trees of obvhs.
 pub trait LeafTest: Send + Sync + 'static {
     /// The name of the triangle test.
     const NAME: &'static str;
@@ -25,13 +25,13 @@ pub trait LeafTest: Send + Sync + 'static {
     /// Prepares a ray.
     fn prepare(ray: &Ray) -> Self::Ray;
 
-    /// The `tmax` of obvhs' ray for a ray with the exclusive end `t_max`. obvhs rejects a rounded `t` equal to `tmax`.
+    /// Returns `tmax`, the end of the ray in the format of obvhs. `t_max` and `tmax` are exclusive.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         t_max
     }
 
-    /// The `t` of a hit, infinity for a miss.
+    /// The `t` of a hit. The result is infinity for a miss and for a hit before the interval.
     fn test(triangle: &Self::Triangle, ray: &PreparedRay, prepared: &Self::Ray) -> f32;
 }
 
@@ -52,7 +52,7 @@ impl<T: TriangleTest> LeafTest for Over<T> {
         (*ray, T::prepare(ray))
     }
 
-    /// The float after the last `t` of the test. An exact test may round a `t` below `t_max` to `t_max`.
+    /// The `t` of a hit may equal `T::last(t_max)`.
     #[inline(always)]
     fn end(t_max: f32) -> f32 {
         T::last(t_max).next_up()
@@ -64,7 +64,7 @@ impl<T: TriangleTest> LeafTest for Over<T> {
     }
 }
 
-/// obvhs' own test on its precomputed triangle.
+/// The triangle test of obvhs as a [`LeafTest`].
 pub struct Native;
 
 impl LeafTest for Native {
@@ -88,9 +88,7 @@ impl LeafTest for Native {
 
 /// The triangle test of obvhs: Möller-Trumbore on precomputed edges and normal.
 ///
-/// The test reads signs from the sign bit of rounded quotients. Therefore it misses hits exactly on an edge if a
-/// barycentric coordinate is -0.0. This happens on every edge seen from the back, and on the third edge also from the
-/// front.
+/// A barycentric coordinate of -0.0 counts as negative. Therefore the test misses some hits exactly on an edge.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RtTest;
 
@@ -104,7 +102,7 @@ impl TriangleTest for RtTest {
 
     #[inline(always)]
     fn prepare(ray: &Ray) -> PreparedRay {
-        // Use the whole line, because `candidates` checks the interval.
+        // `candidates` checks the interval of the ray.
         PreparedRay::new(ray.origin.into(), ray.direction.into(), f32::NEG_INFINITY, f32::MAX)
     }
 

@@ -10,14 +10,15 @@ use crate::accel::Footprint;
 use crate::geometry::{Hit, Mesh, Ray};
 use crate::traversal::pages;
 
-/// Triangles in the order of the leaves of a tree, prepared for the test `T`.
+/// Triangles in leaf order, prepared for the triangle test `T`.
 pub(super) struct Leaves<T: LeafTest> {
     pub triangles: Vec<T::Triangle>,
-    /// The number of each triangle in the mesh.
+    /// `triangles[i]` is triangle `ids[i]` of the mesh.
     pub ids: Vec<u32>,
 }
 
-/// The input of the builders of obvhs: the triangles with an area, and their numbers in the mesh.
+/// The triangles with an area, in the format of obvhs. The second vector contains the index of each triangle in the
+/// mesh.
 pub(super) fn input(mesh: &Mesh) -> (Vec<Triangle>, Vec<u32>) {
     let ids: Vec<u32> = mesh.solid().collect();
     let triangle = |&id: &u32| {
@@ -40,7 +41,7 @@ impl<T: LeafTest> Leaves<T> {
         self.triangles.len()
     }
 
-    /// `None` if the ray can hit nothing.
+    /// `None` if the ray is invalid or the tree has no triangles.
     #[inline(always)]
     pub fn start(&self, ray: &Ray) -> Option<(PreparedRay, T::Ray)> {
         let (t_min, t_max) = ray.interval();
@@ -50,15 +51,15 @@ impl<T: LeafTest> Leaves<T> {
         })
     }
 
-    /// The `test` for [`Tree::walk`](super::Tree::walk): the `t` of the triangle at a position, infinity for a miss.
+    /// Returns the closure `test` for [`Tree::walk`](super::Tree::walk).
     ///
     /// # Safety
-    /// The returned function may only receive positions below [`Leaves::len`].
+    /// The closure's argument `index` must be below [`Leaves::len`].
     #[inline(always)]
     pub unsafe fn test(&self, prepared: T::Ray) -> impl Fn(&PreparedRay, usize) -> f32 {
         move |ray, index| {
             debug_assert!(index < self.triangles.len());
-            // SAFETY: by the contract of this function `index` is below `len`.
+            // SAFETY: by the contract of `Leaves::test`, `index` is below `len`.
             T::test(unsafe { self.triangles.get_unchecked(index) }, ray, &prepared)
         }
     }

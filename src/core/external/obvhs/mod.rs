@@ -1,11 +1,13 @@
-//! The baseline: the BVHs of the crate `obvhs`.
+//! The BVHs of the crate `obvhs`.
 //!
-//! The adapter gives these trees the advantages of the trees of this crate. Arrays are on large pages, triangles are
-//! stored in leaf order, and traversals check no bounds. The links are checked once, when the tree is built.
+//! The adapter requests huge pages for nodes and triangles. `build` checks all links once. Traversals read nodes and
+//! triangles without bounds checks.
 //!
 //! Known defects of obvhs 0.4.0:
-//! - `CwBvh` misses every ray with a direction component of -0.0, and loses hits with t < 1e-4.
-//! - Both BVHs lose axis-parallel rays close to a box face, and rays with short directions.
+//! - `CwBvh` loses all hits of rays with a direction component of -0.0.
+//! - `CwBvh` loses hits with t < 1e-4.
+//! - `Bvh2` and `CwBvh` lose hits of axis-parallel rays close to a box face.
+//! - `Bvh2` and `CwBvh` lose hits of rays with short directions.
 //! - The build takes quadratic time on coincident triangles.
 
 mod bvh2;
@@ -38,7 +40,7 @@ pub type ObvhsBvh2<T> = Obvhs<Bvh2, T>;
 /// The compressed 8-wide BVH of obvhs.
 pub type ObvhsCwBvh<T> = Obvhs<CwBvh, T>;
 
-/// A BVH of obvhs over the triangle test `T`.
+/// A BVH of obvhs with the triangle test `T`.
 pub struct Obvhs<B, T: LeafTest> {
     tree: B,
     node_bytes: usize,
@@ -49,7 +51,7 @@ pub struct Obvhs<B, T: LeafTest> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObvhsConfig {
-    /// One of the crate's presets.
+    /// The preset of obvhs.
     pub preset: Preset,
 }
 
@@ -84,7 +86,7 @@ fn aabb(bounds: obvhs::aabb::Aabb) -> Aabb {
     Aabb { min: bounds.min.into(), max: bounds.max.into() }
 }
 
-/// The interface of both trees of obvhs. A position is the index of a triangle in the order of the leaves.
+/// The interface of the trees of obvhs. A position is the index of a triangle in leaf order.
 pub trait Tree: Send + Sync + Sized + 'static {
     /// A node.
     type Node: Copy;
@@ -92,17 +94,18 @@ pub trait Tree: Send + Sync + Sized + 'static {
     /// Builds the tree.
     fn build(triangles: &[Triangle], params: BvhBuildParams) -> Self;
 
-    /// The nodes, and the index of the triangle at each position.
+    /// The nodes, and one triangle index per position.
     fn arrays(&mut self) -> (&mut Vec<Self::Node>, &mut Vec<u32>);
 
-    /// Whether all links lead to nodes, and all leaves contain positions below `triangles`.
+    /// Returns true if all links are valid. A link to a node must lead to an existing node. A position in a leaf must
+    /// be below `triangles`.
     fn leads_inside(&self, triangles: usize) -> bool;
 
-    /// The nearest hit; with `ANY`, the first hit found. `test` returns the `t` at a position, infinity for a miss.
+    /// Returns the closest hit. With `ANY`, returns the first hit that the traversal finds. `test` receives a position.
+    /// `test` returns infinity for a miss.
     ///
     /// # Safety
-    /// [`Tree::leads_inside`] must return true for the number of triangles that `test` accepts. The traversal checks
-    /// neither links nor positions.
+    /// `test` must accept all positions below a number `n`. [`Tree::leads_inside`] must return true for `n`.
     unsafe fn walk<const ANY: bool>(
         &self,
         ray: PreparedRay,
@@ -110,7 +113,7 @@ pub trait Tree: Send + Sync + Sized + 'static {
         observer: &mut impl Observer,
     ) -> Option<RayHit>;
 
-    /// The shape of the tree, with its stored boxes.
+    /// The shape of the tree.
     fn shape(&self) -> TreeShape;
 }
 
@@ -134,7 +137,8 @@ impl<B: Tree, T: LeafTest> Accel for Obvhs<B, T> {
     #[inline]
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
         let (ray, prepared) = self.leaves.start(ray)?;
-        // SAFETY: `build` has asserted `leads_inside` for the number of triangles that `test` accepts.
+        // SAFETY: `build` has asserted `leads_inside` for `leaves.len()`. Therefore `walk` passes only positions below
+        // `leaves.len()` to `test`.
         let found = unsafe { self.tree.walk::<false>(ray, self.leaves.test(prepared), observer) };
         found.map(|hit| self.leaves.hit(hit))
     }

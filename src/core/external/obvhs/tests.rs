@@ -24,7 +24,7 @@ fn rays(count: usize) -> Vec<Ray> {
     (0..count).map(&mut ray).collect()
 }
 
-/// `own` returns the closest hit and the any-hit result of obvhs' own traversals.
+/// `own` traces a ray with the traversals of the crate `obvhs`.
 fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, bool)) {
     for triangles in [1, 2, 3, 3000] {
         let mesh = soup(triangles);
@@ -41,7 +41,7 @@ fn same_answers<B: Tree>(own: impl Fn(&Obvhs<B, Native>, &Ray) -> (Option<Hit>, 
     }
 }
 
-/// This is a macro, because obvhs' own traversals have no common trait.
+/// `own_walk` is a macro, because the traversals of `obvhs` have no common trait.
 macro_rules! own_walk {
     () => {
         |built, ray| {
@@ -60,7 +60,7 @@ fn the_walk_of_each_tree_gives_the_hits_of_its_own() {
     same_answers::<CwBvh>(own_walk!());
 }
 
-/// The exact `t` is one third, just before the float to which it rounds.
+/// The exact `t` is 1/3, which rounds up to `third`.
 #[test]
 fn a_hit_that_is_rounded_to_the_end_is_found() {
     fn found<B: Tree>(t_max: f32) -> (Option<Hit>, bool) {

@@ -1,7 +1,7 @@
 //! [tinybvh](https://github.com/jbikker/tinybvh) 1.6.8 from the crate `tinybvh-rs` 0.1: the layout `BVH8_CPU`, built
 //! with spatial splits (SBVH).
 //!
-//! Only the builders are called through the crate. The queries call the linked C++ library (see `query.rs`).
+//! The queries call the linked C++ library directly (see `query.rs`).
 //!
 //! # References
 //! Fuetterling, Lojewski, Pfreundt, Ebert: Accelerated single ray tracing for wide vector units. HPG 2017.
@@ -21,22 +21,24 @@ use query::{RayHead, Tree};
 /// The 8-wide BVH of tinybvh.
 pub struct TinyBvh {
     tree: Option<Tree>,
-    /// For each triangle of the tree, its number in the mesh.
+    /// Maps the triangle indices of the tree to the triangle indices of the mesh.
     ids: Vec<u32>,
     shape: TreeShape,
 }
 
-/// Bytes of a node, and of a leaf of four triangles.
+/// Bytes of a node.
 const NODE_BYTES: usize = 256;
+
+/// Bytes of a leaf, which holds up to four triangles.
 const LEAF_BYTES: usize = 192;
 
-/// tinybvh treats a hit beyond this distance as a miss.
+/// A ray of tinybvh ends at this distance or before it.
 const FAR: f32 = tinybvh_rs::INFINITE;
 
-/// The mask of a ray that meets all instances.
+/// The ray mask that selects all instances.
 const EVERYTHING: u32 = 0xffff;
 
-/// tinybvh's inverse of a direction component; never infinite.
+/// tinybvh's inverse of a direction component, always finite.
 #[inline(always)]
 fn inverse(x: f32) -> f32 {
     if x.abs() > 1e-12 { 1.0 / x } else { FAR.copysign(if x >= 0.0 { 1.0 } else { -1.0 }) }
@@ -58,13 +60,14 @@ impl Prepare for TinyBvh {
         }
         let (t_min, t_max) = ray.interval();
         let length = ray.direction.length();
-        // tinybvh has no `t_min`, so its ray starts at the point at `t_min`.
+        // tinybvh has no `t_min`, so the origin is moved to the point at `t_min`.
         let origin = if t_min > 0.0 { ray.at(t_min) } else { ray.origin };
         let unit = ray.direction * (1.0 / length);
         let inverse = Vec3::from_array(unit.to_array().map(inverse));
         let end = ((t_max - t_min) * length).min(FAR);
-        // tinybvh ends the process if `checked`, summed in this order, is NaN. If `unit` or `origin * inverse`
-        // overflows, a ray may meet empty children, and tinybvh reads outside its arrays.
+        // tinybvh adds the same terms in the same order. tinybvh exits the process if the sum is NaN.
+        //
+        // If `unit` or `origin * inverse` overflows, tinybvh may read outside its arrays.
         let checked = unit.x + unit.y + unit.z + end + origin.x + origin.y + origin.z;
         if checked.is_nan() || !unit.is_finite() || !(origin * inverse).is_finite() {
             return None;
@@ -96,13 +99,13 @@ impl Prepare for TinyBvh {
     }
 }
 
-/// The size of the stacks of tinybvh's traversal and conversion, which do not check for overflow.
+/// The capacity of the stacks in `BVH8_CPU`, in entries. tinybvh does not check the capacity.
 const STACK: usize = 256;
 
-/// The shape of the tree, and an upper bound on the entries of tinybvh's stacks.
+/// The shape of the tree, and an upper bound on the number of entries in the stacks of `BVH8_CPU`.
 ///
-/// Let a node have n children, m of them inner. Below this node, the traversal keeps n - 1 entries, and the conversion
-/// keeps fewer than 2 m entries. The traversal writes eight entries at once.
+/// A node with n children, m of them inner, adds at most max(n, 2 m) - 1 entries to a stack. The bound includes eight
+/// more entries, because the traversal writes eight entries at once.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
     let (mut shape, mut most) = (TreeShape::default(), 0);
     let mut stack = vec![(0, 0, 0)];

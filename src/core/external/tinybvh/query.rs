@@ -1,15 +1,15 @@
-//! The two queries of `BVH8_CPU`, called in the linked C++ library.
+//! Calls `Intersect` and `IsOccluded` of `BVH8_CPU` in the linked C++ library.
 //!
-//! The crate `tinybvh-rs` passes a ray of 64 bytes to functions whose ray type has 128 bytes. It does not expose
-//! `IsOccluded`. Therefore this module calls both functions by their mangled C++ names (Itanium ABI). The module relies
-//! on the layouts of the ray and of the crate's tree in the version that `Cargo.toml` pins.
+//! The crate `tinybvh-rs` passes a 64-byte ray to `Intersect`, but the C++ ray type has 128 bytes. The crate does not
+//! expose `IsOccluded`. This module therefore calls `Intersect` and `IsOccluded` by their mangled C++ names (Itanium
+//! ABI). The layouts of the ray and of the crate's tree must match the crate version in `Cargo.toml`.
 
 use std::ffi::c_void;
 use std::mem;
 
 use tinybvh_rs::bvh8_cpu;
 
-/// `tinybvh::Ray` without its last 64 bytes, the custom data. A query reads and writes no other bytes.
+/// The first 64 bytes of `tinybvh::Ray`. The queries do not access the other 64 bytes, which are custom data.
 #[repr(C, align(64))]
 #[derive(Clone, Copy)]
 pub struct RayHead {
@@ -18,7 +18,6 @@ pub struct RayHead {
     pub direction: [f32; 3],
     pub instance: u32,
     pub inverse: [f32; 3],
-    /// This field and the next four are the hit: instance, distance, barycentric coordinates, triangle.
     pub hit_instance: u32,
     pub t: f32,
     pub u: f32,
@@ -35,20 +34,20 @@ struct FullRay {
 const _: () = assert!(size_of::<RayHead>() == 64 && size_of::<FullRay>() == 128);
 
 pub struct Tree {
-    /// Frees `object` on drop; not used otherwise.
+    /// Frees `object` on drop.
     _owner: bvh8_cpu::BVH,
     object: *const c_void,
 }
 
-// SAFETY: the tree owns its data. Both queries are `const` in C++ and write only to the ray of the caller.
+// SAFETY: the tree owns its data.
 unsafe impl Send for Tree {}
-// SAFETY: as for `Send`.
+// SAFETY: `Intersect` and `IsOccluded` are `const` in C++ and do not write to the tree.
 unsafe impl Sync for Tree {}
 
 #[cfg(target_env = "msvc")]
 compile_error!("peer-tinybvh calls C++ by the names of the Itanium ABI, which Microsoft's compiler does not follow");
 
-// SAFETY: the names encode the argument types; the result types are correct for the version in `Cargo.toml`.
+// SAFETY: the mangled names encode the argument types. The result types match the crate version in `Cargo.toml`.
 unsafe extern "C" {
     #[link_name = "_ZNK7tinybvh8BVH8_CPU9IntersectERNS_3RayE"]
     fn intersect(tree: *const c_void, ray: *mut FullRay) -> i32;
@@ -59,7 +58,7 @@ unsafe extern "C" {
 impl Tree {
     pub fn new(owner: bvh8_cpu::BVH) -> Self {
         const { assert!(size_of::<bvh8_cpu::BVH>() == size_of::<*const c_void>()) };
-        // SAFETY: the only field of the crate's tree is a C++ `unique_ptr`, which is one pointer (size asserted above).
+        // SAFETY: the crate's tree has one field, a C++ `unique_ptr`. A `unique_ptr` consists of one pointer.
         let object = unsafe { mem::transmute_copy::<bvh8_cpu::BVH, *const c_void>(&owner) };
         assert!(!object.is_null(), "a converted tree has an object");
         Self { _owner: owner, object }
@@ -69,8 +68,8 @@ impl Tree {
     #[inline]
     pub fn closest(&self, ray: &RayHead) -> Option<(f32, u32)> {
         let mut whole = FullRay { head: *ray, custom: [0; 8] };
-        // SAFETY: the object is on the C++ heap and lives as long as `self`, even if `self` is moved. The ray has the
-        // size and alignment of its C++ type (see `FullRay`). No other reference to the ray exists.
+        // SAFETY: `_owner` keeps the object alive. The object is on the C++ heap and never moves. `FullRay` has the
+        // size and alignment of the C++ ray type. No other reference to `whole` exists.
         unsafe { intersect(self.object, &raw mut whole) };
         (whole.head.t < ray.t).then_some((whole.head.t, whole.head.primitive))
     }
@@ -78,7 +77,8 @@ impl Tree {
     #[inline]
     pub fn any(&self, ray: &RayHead) -> bool {
         let whole = FullRay { head: *ray, custom: [0; 8] };
-        // SAFETY: the object lives as long as `self`. The ray has the layout of its C++ type, and is only read.
+        // SAFETY: `_owner` keeps the object alive. `FullRay` has the size and alignment of the C++ ray type.
+        // `IsOccluded` only reads the ray.
         unsafe { is_occluded(self.object, &raw const whole) }
     }
 }

@@ -19,21 +19,22 @@ pub(super) enum Bounds {
 /// The unit roundoff of `f64`.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
-/// Bounds the intersection of the line of `ray` and a triangle, by Möller-Trumbore.
+/// Intersects the line of `ray` with a triangle by the Möller-Trumbore method.
 ///
-/// **Notation.** Let o and d be the origin and the direction, a the first corner, and s = o - a. Let e and f be the
-/// edges from a. Let u = s . (d x f), v = d . (s x e), det = e . (d x f), w = det - u - v and h = f . (s x e). Let E
-/// bound the components of e and f, and D the components of d. Let |s| be the sum of the magnitudes of the components
-/// of s.
+/// **Notation.** Let o be the origin and d the direction. Let a, b and c be the corners. Let e = b - a, f = c - a and
+/// s = o - a. Let u = s . (d x f), v = d . (s x e), det = e . (d x f), w = det - u - v and h = f . (s x e).
 ///
-/// If det is not zero and no two of u, v and w have opposite signs, the line meets the closed triangle at t = h / det.
+/// Let E bound the magnitudes of the components of e and f. Let D bound the magnitudes of the components of d. Let |s|
+/// be the sum of the magnitudes of the components of s.
 ///
-/// **Bounds.** Let n = 2^-53. The errors are at most:
+/// Let det be nonzero. If no two of u, v and w have opposite signs, the line meets the closed triangle at t = h / det.
 ///
-/// - 7.1 n 2 D E |s| for u and v,
-/// - 7.1 n 6 D E E for det,
+/// **Bounds.** Let n = 2^-53. The errors of the computed values are at most:
+///
+/// - 14.2 n D E |s| for u and v,
+/// - 42.6 n D E E for det,
 /// - 9.2 n (4 D E |s| + 6 D E E) for w,
-/// - 8.1 n 2 E E |s| for h.
+/// - 16.2 n E E |s| for h.
 ///
 /// The code uses larger constants to cover the rounding of the bounds. `f32` inputs cause no overflow or underflow.
 #[inline(always)]
@@ -69,7 +70,9 @@ pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// Returns `None` if the line passes exactly through no corner, or may be parallel to the plane.
+/// Bounds the exact `t` of a line that passes exactly through a corner.
+///
+/// Returns `None` if the line misses all corners. Returns `None` if the line may be parallel to the triangle.
 #[inline(always)]
 pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
     let corner = corners.into_iter().find(|&corner| exact::passes_through(ray, corner))?;
@@ -77,7 +80,7 @@ pub(super) fn look_at_corners(ray: &Ray, corners: [Vec3; 3]) -> Option<Bounds> {
     (det.abs() > error).then(|| at_height(corner, ray, ray.direction.abs().max_position()))
 }
 
-/// Returns det in the notation of [`look`], and a bound of the error of det.
+/// Returns the computed value of -det and an error bound, in the notation of [`look`].
 #[inline(always)]
 fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
     let direction = ray.direction.as_dvec3();
@@ -97,7 +100,7 @@ fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     Bounds::Hit { low: t - error, high: t + error }
 }
 
-/// Whether u, v or w of [`look`] has the opposite sign of det. The sign of det must be certain.
+/// Whether u, v or w of [`look`] has a sign opposite to the sign of det. The sign of det must be certain.
 #[inline(always)]
 fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 3]) -> bool {
     let sign = det.total_cmp(&0.0);
@@ -108,11 +111,12 @@ fn passes_by(ray: &Ray, [a, b, c]: [Vec3; 3], det: f64, [u, v, w]: [(f64, f64); 
     is_opposite(u, a, c) || is_opposite(v, b, a) || is_opposite(w, c, b)
 }
 
-/// Returns the lanes with valid bounds, as bits, and bounds of the exact `t`. Each line must meet the triangle in the
-/// same lane.
+/// Bounds the exact `t` in each lane. The line in a lane must meet the triangle in this lane.
 ///
-/// **Bounds.** In the notation of [`look`], the error of h = s . (e x f) is 8.1 n 2 E E |s|. The error of det = -d . (e
-/// x f) is 7.1 n 6 D E E.
+/// The bits of the first result mark the lanes with valid bounds.
+///
+/// **Bounds.** In the notation of [`look`], h = s . (e x f) and det = -d . (e x f). The error of h is at most
+/// 16.2 n E E |s|. The error of det is at most 42.6 n D E E.
 #[inline(always)]
 pub(super) fn place<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -133,7 +137,9 @@ pub(super) fn place<const N: usize, L: Lanes<N>>(
     (times(det_error, 1024.0).le(det.flip_sign(det)), low, high)
 }
 
-/// Like [`place`], for a triangle in an axis-aligned plane. Returns `None` for other triangles and for parallel lines.
+/// Bounds the exact `t` for a triangle in an axis-aligned plane. The line must meet the triangle.
+///
+/// Returns `None` for all other triangles. Returns `None` if the line is parallel to the plane.
 #[inline(always)]
 pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bounds> {
     let across = a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpne(Vec3::ZERO);
@@ -141,14 +147,14 @@ pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bo
     Some(at_height(*a, ray, axis))
 }
 
-/// Bounds the exact `t`. Each line must meet the triangle in the same lane.
+/// Bounds the exact `t` in each lane. The line in a lane must meet the triangle in this lane.
 ///
-/// `width` is the distance between the bounds of the first stage, or infinity.
+/// `width` is the distance between the bounds of `t` from `filter.rs`, or infinity.
 ///
-/// **Bounds.** In the notation of `filter_block`, with n = 2^-53, the error of h is less than 8.1 n N |s|. The error of
-/// det is less than 7.1 n 3 D N. The first stage allows errors of 10 w N |s| and 10 w 3 D N, with w = 2^-24. Hence
-/// 2^-29 of half of `width` covers the errors of h and det. The other half of `width` covers the rounding of the first
-/// stage. 2^-50 of `t` covers the later operations.
+/// **Bounds.** Let n = 2^-53. In the notation of `filter_block`, the error of h is less than 8.1 n P |s|. The error of
+/// det is less than 21.3 n D P. `filter_block` allows an error of 10 w P |s| in h, with w = 2^-24. `filter_block`
+/// allows an error of 30 w D P in det. Hence 2^-30 `width` covers the errors of h and det. Another 2^-30 `width` covers
+/// the rounding of `width`. 2^-50 |t| covers the rounding of the later operations.
 #[inline(always)]
 pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     origin: LaneVec3<N, L>,
@@ -165,9 +171,10 @@ pub(super) fn pass_plane<const N: usize, L: Lanes<N>>(
     (t.sub(error), t.add(error))
 }
 
-/// Like [`place`] for one lane, with the more accurate height of [`exact::height`].
+/// Bounds the exact `t` with [`exact::height`]. The line must meet the triangle.
 ///
-/// The relative error of the height is below 2^-49. If the origin lies in the plane, both bounds are zero.
+/// The relative error of [`exact::height`] is below 2^-49. If the origin lies in the plane of the triangle, the bounds
+/// of a `Hit` are zero.
 pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (det, det_error) = determinant(ray, corners);
     if det.abs() < 1024.0 * det_error || det == 0.0 {
@@ -179,11 +186,12 @@ pub(super) fn place_closely(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     Bounds::Hit { low: low.store()[0], high: high.store()[0] }
 }
 
-/// Bounds h/d for computed values h' and d' with errors dh and dd.
+/// Bounds the quotient of two exact numbers. `height` and `det` are approximations of these numbers.
 ///
-/// The error of h'/d' is at most (dh + |h'/d'| dd) / (|d'| - dd).
+/// `height_error` and `det_error` bound the errors of the approximations. `det_error` must be at most 2^-10 |`det`|.
 ///
-/// `det_error` must be at most 2^-10 of |`det`|. The rounding adds at most 2^-50 |t|.
+/// The error of t = `height` / `det` is at most (`height_error` + |t| `det_error`) / (|`det`| - `det_error`). Rounding
+/// adds at most 2^-50 |t|.
 #[inline(always)]
 fn divide<const N: usize, D: Arithmetic<N, Scalar = f64>>(height: D, height_error: D, det: D, det_error: D) -> (D, D) {
     let abs = |x: D| x.flip_sign(x);

@@ -10,24 +10,24 @@ use crate::simd::{EightLanes, LaneVec3, indexed};
 use crate::triangle::corners::LaneCorners;
 use crate::triangle::{BETWEEN_BOUNDS, DIRECTION, Depth, INPUTS, ORIGIN};
 
-/// Bounds of the exact `t` of a hit. The triangle allows finer bounds.
+/// The triangle of a hit, and bounds of the exact `t`.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactDepth<'a> {
     low: f32,
     high: f32,
-    /// The distance between the bounds. Infinite if the bounds do not come from the first stage.
+    /// `high - low` if the bounds come from `filter.rs`. Otherwise infinite.
     width: f32,
     triangle: LaneCorners<'a>,
 }
 
 impl<'a> ExactDepth<'a> {
-    /// Bounds from a later stage also need a call of `without_filter_bounds`.
+    /// If the bounds do not come from `filter.rs`, call `without_filter_bounds` on the result.
     #[inline(always)]
     pub(super) fn new(triangle: LaneCorners<'a>, low: f32, high: f32) -> Self {
         Self { low, high, width: high - low, triangle }
     }
 
-    /// [`pass_plane`] is valid only for the width of first-stage bounds, or for an infinite width.
+    /// [`pass_plane`] requires an infinite `width` if the bounds do not come from `filter.rs`.
     #[inline(always)]
     pub(super) fn without_filter_bounds(self) -> Self {
         Self { width: f32::INFINITY, ..self }
@@ -72,7 +72,9 @@ impl<'a> ExactDepth<'a> {
     }
 }
 
-/// Whether two triangles have equal corners or lie in one axis-aligned plane. Hits of these triangles have equal `t`.
+/// Whether two triangles have equal corners or lie in one axis-aligned plane.
+///
+/// If true, the hits of one ray with the two triangles have equal exact `t`.
 #[inline(always)]
 fn surely_coplanar(a: &[Vec3; 3], b: &[Vec3; 3]) -> bool {
     let first = a[0];
@@ -159,7 +161,7 @@ impl Depth for ExactDepth<'_> {
 #[inline(always)]
 fn rounded(bounds: Bounds) -> Option<f32> {
     match bounds {
-        // If the bounds are zeros of different signs, `high` is the positive zero.
+        // If the rounded bounds are -0 and +0, the result is +0.
         Bounds::Hit { low, high } if low as f32 == high as f32 => Some(high as f32),
         _ => None,
     }

@@ -20,13 +20,13 @@ use enclosure::{Bounds, look, look_at_corners, place, place_closely, place_in_ax
 /// The exact triangle test, with floating-point filters.
 ///
 /// An `f32` stage with error bounds decides most triangles. An `f64` stage with error bounds decides most of the
-/// remaining triangles. Integers or exact sums of floats decide the last triangles.
+/// remaining triangles. Exact arithmetic decides all other triangles.
 ///
-/// A ray in the plane of a triangle misses the triangle. Any other ray hits a triangle if and only if the ray exactly
-/// meets the closed triangle. Hits are ordered by exact `t`, and by triangle number if `t` is equal.
+/// A ray in the plane of a triangle misses the triangle. Any other ray hits the triangle if and only if the ray and the
+/// closed triangle have a common point. Hits are ordered by exact `t`.
 ///
-/// The returned `t` is the exact `t`, correctly rounded. Hence the returned `t` of a hit just before `t_max` may be
-/// `t_max`.
+/// The returned `t` is the exact `t`, correctly rounded. If the exact `t` is just below `t_max`, the returned `t` may
+/// be `t_max`.
 ///
 /// Results may be wrong if the processor treats denormal numbers as zero.
 ///
@@ -63,7 +63,7 @@ impl TriangleTest for Exact {
         FilterBlock::new(triangles)
     }
 
-    /// An exact `t` below `t_max` may lie above the float before `t_max`.
+    /// The exact `t` of a hit may lie between `t_max` and the next smaller float.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
         t_max
@@ -92,7 +92,7 @@ impl TriangleTest for Exact {
         bounds: &CandidateBounds<N>,
     ) -> Option<ExactDepth<'a>> {
         if let Some(decided) = Self::decide_at_once(ray, block, lane, bounds) {
-            // The bounds may come from `look_closer` instead of the filter.
+            // `bounds` may come from `look_closer` instead of the filter.
             return decided.map(ExactDepth::without_filter_bounds);
         }
         let (low, high) = in_f64(&ray.ray, block.corners.place(lane), bounds.sure >> lane & 1 == 1)?;
@@ -165,7 +165,7 @@ impl TriangleTest for Exact {
     }
 }
 
-/// Returns bounds of the exact `t`, or `None` for a miss. If `met` is true, the line must meet the triangle.
+/// Returns bounds of the exact `t`, or `None` for a miss. `met` may be true only if the line meets the triangle.
 #[inline(never)]
 fn in_f64(ray: &Ray, triangle: LaneCorners, met: bool) -> Option<(f32, f32)> {
     let corners = triangle.corners();
@@ -182,7 +182,9 @@ fn in_f64(ray: &Ray, triangle: LaneCorners, met: bool) -> Option<(f32, f32)> {
         .unwrap_or_else(|| exactly(ray, corners))
 }
 
-/// Returns `Some(None)` if the ray has no hit in its interval, and `None` if `bounds` do not decide.
+/// Returns `None` if `bounds` prove neither a hit nor a miss.
+///
+/// Returns `Some(None)` if `bounds` prove that the ray has no hit in the interval.
 #[inline(always)]
 fn within(ray: &Ray, bounds: Bounds) -> Option<Option<(f32, f32)>> {
     let (start, end) = (f64::from(ray.interval().0), ray.end());
@@ -237,7 +239,7 @@ fn runs_along(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> bool {
     (a.cmpeq(*b) & a.cmpeq(*c) & ray.direction.cmpeq(Vec3::ZERO)).any()
 }
 
-/// Like [`look`], for a line that meets the triangle.
+/// Bounds the exact `t`. The line of `ray` must meet the triangle.
 #[inline(always)]
 fn bounds_of_hit(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     if let Some(bounds) = place_in_axis_plane(ray, &corners) {
@@ -253,6 +255,6 @@ fn bounds_of_hit(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
 #[cold]
 fn exactly(ray: &Ray, corners: [Vec3; 3]) -> Option<(f32, f32)> {
     let t = exact::hit(ray, corners).filter(|t| t.is_within(ray))?.round();
-    // The rounding error is at most the distance to the next float.
+    // The exact `t` lies between the two neighbours of the rounded `t`.
     Some((t.next_down(), t.next_up()))
 }

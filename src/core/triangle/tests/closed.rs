@@ -1,8 +1,8 @@
-//! Checks that no ray passes between the triangles of a closed mesh.
+//! Checks that no ray passes between neighbouring triangles.
 
 use super::*;
 
-/// A ray through an edge or a vertex must hit a triangle. `scale` multiplies everything except the direction.
+/// `scale` multiplies the triangles and the ray's origin.
 fn closed_at<T: TriangleTest>(scale: f32, rounds: usize, vertices: bool) {
     let mut rng = Pcg32::seed_from_u64(8);
     for round in 0..rounds {

@@ -1,11 +1,12 @@
-//! Compares tests of eight rays at once with tests of single rays.
+//! Compares the hits from `meet_eight` with the hits from `hit`.
 
 use std::marker::PhantomData;
 
 use super::*;
 use crate::simd::{EightLanes, Kernel, LaneVec3, Level, dispatch, each};
 
-/// The first output counts all hits. The second output counts the hits that `meet_eight` decides.
+/// The first output counts the hits from `hit`. The second output counts the hits from `meet_eight`. Neither output
+/// counts hits at a `t` of `to` or more.
 struct Eight<'a, T>(&'a [Ray; 8], &'a [[Vec3; 3]], f32, PhantomData<T>);
 
 impl<T: TriangleTest> Kernel for Eight<'_, T> {
@@ -19,7 +20,7 @@ impl<T: TriangleTest> Kernel for Eight<'_, T> {
         let block = T::block::<8>(triangles);
         let mut counts = [0; 2];
         for (lane, &corners) in triangles.iter().enumerate() {
-            // Activate all rays except the last.
+            // Only rays 0 to 6 are active.
             let found = T::meet_eight(&lanes, &block, lane, L::load(&to), L::mask(0x7f));
             let found =
                 found.map(|found| (L::bits(found.met), L::bits(found.missed), found.low.store(), found.high.store()));
@@ -80,7 +81,6 @@ fn count_hits<T: TriangleTest>() -> [usize; 2] {
             if round % 7 == 0 { Ray { t_min: 0.5, ..ray }.until(1.5) } else { ray }
         };
         let rays: [Ray; 8] = std::array::from_fn(|_| one());
-        // Aimed rays are invalid if the triangle is too far away.
         if !rays.iter().all(Ray::is_valid) {
             continue;
         }

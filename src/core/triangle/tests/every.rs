@@ -74,7 +74,7 @@ fn correct_far_from_edges<T: TriangleTest>() {
     assert!(hits > 500, "{hits}");
 }
 
-/// On a grid of small integers, all arithmetic is exact.
+/// Sums and products of small integers are exact.
 fn exact_on_a_grid<T: TriangleTest>() {
     let mut rng = Pcg32::seed_from_u64(1);
     let mut hits = 0;

@@ -1,9 +1,9 @@
-//! Compares the exact test with exact sums and rationals.
+//! Compares `Exact` with exact arithmetic.
 
 use super::*;
 use crate::simd::{Level, Portable};
 
-/// At this size, products of three lengths underflow, but products of two lengths do not.
+/// Products of three lengths of 2^-51 underflow. Products of two lengths of 2^-51 do not underflow.
 #[test]
 fn hits_where_only_the_height_underflows_are_found() {
     let unit = libm::exp2f(-51.0);
@@ -35,7 +35,7 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
         let ray = windowed(&mut rng, ray, corners);
         let found = scalar_hit::<Exact>(&ray, corners);
         assert_eq!(found.map(f32::to_bits), true_t(&ray, corners).map(f32::to_bits), "{ray:?} {corners:?}");
-        // `true_t` shares exact arithmetic with `Exact`. Rationals share no code with `Exact`.
+        // `true_t` and `Exact` share code. `rational` and `Exact` share no code.
         if round % 31 == 0 && ray.is_valid() {
             let second = rational::hit_within(&ray, corners);
             assert_eq!(found.map(f32::to_bits), second.map(f32::to_bits), "{ray:?} {corners:?}");
@@ -45,7 +45,6 @@ fn the_exact_test_agrees_with_the_judges_everywhere() {
     assert!(hits > 30_000, "{hits}");
 }
 
-/// The error bound for the numerator of `t` is tightest for narrow or axis-aligned triangles.
 pub(super) fn narrow(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let mut corners = triangle(rng, unit);
     let width = libm::exp2f(-((rng.next_u32() % 24) as f32));

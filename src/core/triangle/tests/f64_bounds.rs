@@ -1,15 +1,15 @@
-//! Checks the documented bounds of the tests in `f64` against rationals.
+//! Checks the documented error bounds of the `f64` triangle tests against rationals.
 
 use dashu_ratio::RBig;
 
 use super::*;
 
-/// A size is the sum of the magnitudes of the components of a vector.
+/// The size of a vector is the sum of the magnitudes of the components.
 struct Sizes {
     direction: f64,
-    /// The vectors from the origin to each corner.
+    /// The sizes of the vectors from the ray's origin to each corner.
     corners: [f64; 3],
-    /// The vectors from each corner to the next corner.
+    /// The sizes of the vectors b - a, c - b and a - c, for the corners a, b and c.
     edges: [f64; 3],
 }
 
@@ -25,11 +25,11 @@ impl Sizes {
     }
 }
 
-/// The documented bounds of a test. `outside` and `t` are not yet divided by the determinant.
+/// The documented bounds of a triangle test. `check` divides `outside` and `t` by the magnitude of the determinant.
 struct Bounds {
-    /// If the magnitude of the determinant is at least this bound, the test must find the hit.
+    /// The smallest magnitude of the determinant for which the test must find a hit.
     found: f64,
-    /// The barycentric of each corner of a reported hit is at least minus this bound.
+    /// In `check`, a barycentric of a reported hit must be at least `-outside / determinant`.
     outside: [f64; 3],
     t: f64,
 }
@@ -91,7 +91,7 @@ fn check<T: TriangleTest>(ray: &Ray, corners: [Vec3; 3], bounds: fn(&Sizes, f64)
             counts.off += u32::from(error > ulp(t));
         }
         None if is_hit => {
-            // Near an end of the interval, the rounded `t` decides whether the hit is inside.
+            // Near an end of the interval, rounding of `t` may lose the hit.
             let at_an_end = t <= off || t + off >= f64::from(f32::MAX);
             assert!(determinant < sure || at_an_end, "{}: a sure hit is lost: {ray:?} {corners:?}", T::NAME);
             counts.lost += 1;
@@ -120,7 +120,7 @@ fn check_bounds<T: TriangleTest>(bounds: fn(&Sizes, f64) -> Bounds) {
         }
     }
     let ErrorCounts { hits, lost, invented, off } = counts;
-    // Without such errors, the bounds remain untested.
+    // The bounds are tested only if errors occur.
     assert!(hits > 2_000 && lost > 0 && invented > 0 && off > 20, "{}: {counts:?}", T::NAME);
 }
 

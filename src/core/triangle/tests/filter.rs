@@ -1,11 +1,12 @@
-//! Checks the first stage of the exact test.
+//! Checks `filter_block`, the first stage of `Exact`.
 
 use super::super::filter::{FilterBlock, FilterRay, filter_block};
 use super::*;
 use crate::exact::ExactT;
 use crate::simd::{EightLanes, Kernel, Level, dispatch};
 
-/// The output is whether lane 3 is a candidate, and bounds of `t`. The bounds are `None` if the hit is uncertain.
+/// The first output is true if lane 3 is a candidate. The second output contains the bounds of `t` in lane 3. The
+/// second output is `None` if the hit is uncertain.
 struct Look<'a>(&'a Ray, [Vec3; 3], f32);
 
 impl Kernel for Look<'_> {
@@ -21,7 +22,6 @@ impl Kernel for Look<'_> {
     }
 }
 
-/// These rays and triangles cause no overflow and no underflow.
 fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
     let scale = libm::exp2f((rng.next_u32() % 80) as f32 - 50.0);
     let corners = triangle(rng, unit).map(|p| p * scale);
@@ -35,7 +35,7 @@ fn near(rng: &mut Pcg32) -> (Ray, [Vec3; 3]) {
 fn the_first_stage_loses_no_hit_is_right_when_sure_and_leaves_little() {
     let mut rng = Pcg32::seed_from_u64(6);
     let (mut hits, mut sure, mut narrow, mut cut) = (0, 0, 0, 0);
-    // These four count only rays from `near` with an infinite `to`.
+    // `misses`, `kept`, `met` and `unsure` count only rays from `near` with an infinite `to`.
     let (mut misses, mut kept, mut met, mut unsure) = (0, 0, 0, 0);
     for round in 0..400_000 {
         let (ray, corners) = match round % 3 {

@@ -1,7 +1,7 @@
-//! FLIP for low dynamic range: the visible difference when a viewer flips between two pictures.
+//! FLIP for low dynamic range. FLIP measures the visible difference when a viewer flips between two pictures.
 //!
-//! Departure from the paper: pictures with transparency are compared over black and over white. The larger difference
-//! of each pixel counts. The paper ignores alpha.
+//! Unlike the paper, this module blends transparent pictures with a black and with a white background. The FLIP of a
+//! pixel is the larger of the two results.
 //!
 //! # References
 //! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: FLIP: a difference evaluator for alternating
@@ -15,11 +15,11 @@ use image::DynamicImage;
 use super::plane::{Plane, gaussian, in_bands, offsets};
 use crate::golden::layout::Layout;
 
-/// Pixels per degree of visual angle, as the paper assumes. The screen is 0.7 m wide, has 3840 columns of pixels and is
-/// 0.7 m away.
+/// The default of the paper for pixels per degree of visual angle. The paper assumes a screen of 3840 columns, 0.7 m
+/// wide and 0.7 m away.
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
-/// FLIP of each pixel, from 0 (equal) to 1. The pictures must have the same layout, without floats.
+/// FLIP of each pixel, from 0 (equal) to 1. The pictures must have equal layouts. Floats are not supported.
 pub fn flip(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) -> Vec<f32> {
     let layout = Layout::of(one);
     let filters = Filters::new(pixels_per_degree);
@@ -39,20 +39,23 @@ pub fn flip(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) ->
 }
 
 struct Filters {
-    /// Contrast sensitivity. Blue-yellow has two weighted Gaussians.
+    /// The filters `lightness`, `red_green` and `blue_yellow` model contrast sensitivity.
     lightness: Vec<f64>,
     red_green: Vec<f64>,
+    /// Two pairs of a share and a Gaussian.
     blue_yellow: [(f64, Vec<f64>); 2],
-    /// Feature detection: a Gaussian and its first and second derivatives.
+    /// A Gaussian for feature detection.
     smooth: Vec<f64>,
+    /// The first derivative of `smooth`, normalized.
     edge: Vec<f64>,
+    /// The second derivative of `smooth`, normalized.
     point: Vec<f64>,
 }
 
 impl Filters {
     fn new(pixels_per_degree: f64) -> Self {
         // The term `a sqrt(π/b) exp(-π² x²/b)` of the paper, with x in degrees, is a Gaussian. `deviation` is its
-        // standard deviation in pixels. The widest Gaussian determines the window of all terms.
+        // standard deviation in pixels. All terms have the window of the widest Gaussian.
         let deviation = |b: f64| (b / (2.0 * PI * PI)).sqrt() * pixels_per_degree;
         let reach = (3.0 * deviation(0.04)).ceil() as usize;
         let term = |b| gaussian(reach, deviation(b));
@@ -158,19 +161,20 @@ fn relative_to_white(rgb: DVec3) -> DVec3 {
     XYZ * rgb / (XYZ * DVec3::ONE)
 }
 
-/// Converts linear RGB to YCxCz, a linear relative of CIELAB.
+/// Converts linear RGB to YCxCz, a linearized CIELAB.
 fn opponent(rgb: DVec3) -> DVec3 {
     let xyz = relative_to_white(rgb);
     DVec3::new(116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z))
 }
 
-/// Converts a filtered colour from YCxCz to CIELAB. `lab` scales chroma by lightness (Hunt effect).
+/// Converts a filtered colour from YCxCz to CIELAB.
 fn perceived(colour: DVec3) -> DVec3 {
     let y = (colour.x + 16.0) / 116.0;
     let xyz = DVec3::new(y + colour.y / 500.0, y, y - colour.z / 200.0);
     lab((XYZ.inverse() * (xyz * (XYZ * DVec3::ONE))).clamp(DVec3::ZERO, DVec3::ONE))
 }
 
+/// Converts linear RGB to CIELAB. Chroma is scaled by lightness (Hunt effect).
 fn lab(rgb: DVec3) -> DVec3 {
     let delta: f64 = 6.0 / 29.0;
     let root = |t: f64| if t > delta.powi(3) { libm::cbrt(t) } else { t / (3.0 * delta * delta) + 4.0 / 29.0 };
@@ -184,7 +188,7 @@ fn hyab(one: DVec3, other: DVec3) -> f64 {
     gap.x.abs() + (gap.y * gap.y + gap.z * gap.z).sqrt()
 }
 
-/// `distance` is a HyAB distance to the power 0.7. The largest distance is between green and blue.
+/// `distance` is a HyAB distance to the power 0.7. The largest HyAB distance is between green and blue.
 fn spread(distance: f64) -> f64 {
     let most = libm::pow(hyab(lab(DVec3::Y), lab(DVec3::Z)), 0.7);
     let bend = 0.4 * most;

@@ -1,4 +1,4 @@
-//! Measures of the difference of two pictures of one layout: mean, PSNR, SSIM and FLIP.
+//! Measures of the difference between two pictures: mean, PSNR, SSIM and FLIP.
 
 mod flip;
 mod plane;
@@ -15,7 +15,7 @@ use super::mask::Mask;
 
 pub use flip::PIXELS_PER_DEGREE;
 
-/// An undefined measure is `None` or not finite, and null in JSON.
+/// An undefined measure is `None` or not finite. In JSON, an undefined measure is null.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Measures {
     pub compared: usize,
@@ -24,11 +24,11 @@ pub struct Measures {
     pub difference: Difference,
     /// The number of pixels that differ by more than the tolerance.
     pub pixels_over: usize,
-    /// The mean over all channels of all compared pixels, in the unit of `full_scale`.
+    /// The mean difference, in channel values, over all channels of the compared pixels.
     pub mean: f64,
     /// The peak signal-to-noise ratio in dB.
     pub psnr: f64,
-    /// The mean over the compared pixels whose window is inside the picture.
+    /// The mean SSIM of the compared pixels whose SSIM window is inside the picture.
     pub ssim: Option<f64>,
     pub flip: Option<Flip>,
 }
@@ -48,7 +48,7 @@ pub struct FlipMap {
 }
 
 impl FlipMap {
-    /// `None` for floats. The pictures must have the same layout.
+    /// `None` for pictures of floats. The pictures must have the same layout.
     pub fn new(one: &DynamicImage, other: &DynamicImage, pixels_per_degree: f64) -> Option<Self> {
         let layout = Layout::of(one);
         (!layout.is_float()).then(|| Self { size: layout.size, values: flip::flip(one, other, pixels_per_degree) })
@@ -69,7 +69,7 @@ impl FlipMap {
 }
 
 impl Measures {
-    /// The masked pixels of the pictures must be equal.
+    /// Each masked pixel must be equal in both pictures.
     pub fn new(
         [one, other]: [&DynamicImage; 2],
         difference: Difference,
@@ -99,7 +99,7 @@ impl Measures {
         }
     }
 
-    /// Keeps only the counts of pixels. The size of a difference between primitive numbers has no meaning.
+    /// Removes the sizes of the differences. The size of a difference between primitive numbers has no meaning.
     #[must_use]
     pub fn without_sizes(self) -> Self {
         let difference = Difference { worst: self.difference.first, largest: f64::NAN, ..self.difference };

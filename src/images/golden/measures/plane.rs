@@ -13,9 +13,9 @@ pub struct Plane {
 /// Rows per band.
 const BAND: usize = 64;
 
-/// Computes one number per pixel, in parallel for bands of rows. `of` receives the row indices of a band, with `reach`
-/// more rows above and below. Beyond the edge of the picture, the outermost row is repeated. `of` returns one number
-/// per pixel of all these rows.
+/// Computes one number per pixel. Bands of rows are computed in parallel. `of` receives the row indices of a band,
+/// extended by `reach` rows above and below. An index outside the picture is replaced by the index of the nearest row.
+/// `of` must return one number per pixel of the received rows.
 pub fn in_bands(size: [u32; 2], reach: usize, of: impl Fn(&[usize]) -> Vec<f64> + Sync) -> Vec<f32> {
     let [width, height] = size.map(|side| side as usize);
     let bands: Vec<Range<usize>> = (0..height).step_by(BAND).map(|top| top..height.min(top + BAND)).collect();

@@ -13,12 +13,14 @@ use crate::golden::layout::Layout;
 const REACH: usize = 5;
 const SIGMA: f64 = 1.5;
 
-/// The squares of 0.01 and 0.03 of full scale.
+/// `(K1 L)²` of the paper, for K1 = 0.01 and full scale L = 1.
 const C1: f64 = 1e-4;
+/// `(K2 L)²` of the paper, for K2 = 0.03 and full scale L = 1.
 const C2: f64 = 9e-4;
 
-/// The mean over all channels, including alpha. A pixel counts only if its window is inside the pictures. The result is
-/// `None` if no pixel counts or the mean is not finite.
+/// The mean SSIM over all channels, including alpha. The mean excludes pixels for which `compared` returns false. The
+/// mean also excludes pixels with a window that crosses the edge of the picture. The result is `None` if all pixels are
+/// excluded or the mean is not finite.
 pub fn ssim(one: &DynamicImage, other: &DynamicImage, compared: impl Fn(usize) -> bool) -> Option<f64> {
     let layout = Layout::of(one);
     let [width, height] = layout.size.map(|side| side as usize);

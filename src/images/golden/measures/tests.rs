@@ -41,10 +41,10 @@ fn plain(colour: [u8; 3]) -> DynamicImage {
     RgbImage::from_pixel(40, 30, Rgb(colour)).into()
 }
 
-/// Pixels per degree, then FLIP: the mean, the maximum, and the values of the pixels (40, 40) and (0, 0).
+/// Pixels per degree, then four FLIP values: mean, maximum, pixel (40, 40), pixel (0, 0).
 type Known = (f64, [f64; 4]);
 
-/// Computed by the authors' program, `flip-evaluator` 1.7, in single precision, with the call
+/// Computed in single precision by the program of the FLIP authors, `flip-evaluator` 1.7. The call was
 /// `evaluate(reference, test, "LDR", True, False, True, {"ppd": ...})`.
 const KNOWN_FLIP: [[Known; 2]; 4] = [
     [
@@ -87,7 +87,8 @@ fn flip_of_plain_colours_is_known() {
     let [green, blue] = [[0, 255, 0], [0, 0, 255]].map(plain);
     assert!((flip_of(&green, &blue).mean - 1.0).abs() < 1e-6);
     let black_white = flip_of(&plain([0; 3]), &plain([255; 3]));
-    // The result of the formulas in double precision. nv-flip 0.1.2 returns 0.967392 in single precision.
+    // 0.96737976 is the result of the formulas in double precision.
+    // In single precision, the crate nv-flip 0.1.2 returns 0.967392.
     assert!((black_white.mean - 0.96737976).abs() < 1e-6, "{black_white:?}");
     assert_eq!(flip_of(&green, &blue), flip_of(&blue, &green));
     let deep = |picture: &DynamicImage| DynamicImage::from(picture.to_rgb16());
@@ -105,7 +106,7 @@ fn flip_sees_alpha_where_it_shows() {
     let (red, green) = ([255, 0, 0], [0, 255, 0]);
     assert_eq!(flip_of(&clear(red, 255), &clear(green, 255)), flip_of(&plain(red), &plain(green)));
     assert_eq!(flip_of(&clear(red, 0), &clear(green, 0)).mean, 0.0, "nobody sees either");
-    // Half-transparent black is black over black, and grey over white.
+    // Half-transparent black over a white background is grey.
     assert!(flip_of(&clear([0; 3], 255), &clear([0; 3], 128)).mean > 0.5);
     let grey = |alpha| DynamicImage::from(clear([77; 3], alpha).to_luma_alpha8());
     assert!(flip_of(&grey(255), &grey(200)).mean > 0.1);
@@ -121,7 +122,7 @@ fn ssim_is_that_of_another_program() {
     let base = DynamicImage::from(base());
     for (other, known) in pictures().iter().zip(KNOWN_SSIM) {
         let found = ssim::ssim(&base, other, |_| true).unwrap();
-        // The map of SSIM has single precision.
+        // `ssim` rounds intermediate results to single precision.
         assert!((found - known).abs() < 1e-7, "{found}, not {known}");
     }
     assert_eq!(ssim::ssim(&base, &base, |_| true), Some(1.0));

@@ -1,4 +1,4 @@
-//! Renders the HTML of the page.
+//! Renders a page of comparisons as HTML.
 
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value, context};

@@ -95,7 +95,7 @@ impl Page<'_> {
         }
         if let Some(maps) = maps {
             add("difference", &maps.difference.clone().into())?;
-            // FLIP of triangle numbers has no meaning.
+            // FLIP of primitive numbers has no meaning.
             if let Some(map) = maps.flip.as_ref().filter(|_| sides.values != Values::Primitives) {
                 let colours = map.values.iter().map(|&value| ramp_colour(value.into())).collect();
                 add("FLIP", &from_pixels(map.size, colours).into())?;

@@ -1,4 +1,4 @@
-//! Converts the pictures of a comparison for the page.
+//! Converts the pictures of a comparison for an HTML page.
 
 use image::DynamicImage;
 use serde_json::json;
@@ -17,9 +17,9 @@ pub struct PicturePair<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
     Colours,
-    /// Distances, the same in all channels.
+    /// Distances. All channels are equal.
     Depths,
-    /// Numbers of primitives, [packed](crate::golden::numbers::packed).
+    /// Primitive numbers, [packed](crate::golden::numbers::packed).
     Primitives,
 }
 
@@ -48,7 +48,8 @@ pub fn shown(picture: &DynamicImage, values: Values) -> DynamicImage {
     }
 }
 
-/// This script passes the values to the page, because browsers do not let a local page read pictures.
+/// Returns a script that passes the values of the pictures to the page. Browsers do not let local pages read the pixels
+/// of pictures.
 pub fn values(number: usize, sides: PicturePair) -> String {
     let of = |picture: Option<&DynamicImage>| picture.map(|picture| numbers(picture, sides.values));
     let data = json!({ "expected": of(sides.expected), "actual": of(sides.actual) });

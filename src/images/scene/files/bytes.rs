@@ -1,11 +1,11 @@
-//! Reads and writes the 32-byte header of ray, hit and truth files.
+//! The 32-byte header at the start of ray, hit and truth files.
 
 use sha2::{Digest, Sha256};
 
 use crate::accel::Query;
 use crate::scene::Workload;
 
-/// Identifies a set of rays in the headers of ray, hit and truth files.
+/// Identifies a set of rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RaysId {
     pub query: Query,

@@ -1,16 +1,18 @@
-//! Writes truth files: the exact hits of a workload.
+//! The bytes of a truth file, which contains the exact hits of a workload.
 
 use super::bytes::RaysId;
 use crate::accel::Query;
 use crate::scene::Workload;
 
-/// The distance `t`, and the ascending numbers of all triangles at this distance (at least one). A miss is `None`.
+/// The ray parameter `t`, and the indices of all triangles that the ray hits at `t`. A miss is `None`.
+///
+/// A hit has at least one index. The indices ascend.
 pub type ExactHit = Option<(f64, Vec<u32>)>;
 
 /// `hits` are the exact closest hits, in the order of the rays.
 ///
 /// # Panics
-/// If the numbers of hits and rays differ, or if the query of the workload is any hit.
+/// If the number of hits is not the number of rays, or if the query is not [`Query::Closest`].
 pub fn exact_hits_bytes(workload: &Workload, hits: &[ExactHit]) -> Vec<u8> {
     assert_eq!(workload.rays.len(), hits.len(), "one hit per ray");
     assert_eq!(workload.query, Query::Closest, "only a closest hit has a distance");

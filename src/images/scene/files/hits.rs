@@ -18,19 +18,19 @@ pub struct HitFile {
 
 const MAGIC: &[u8; 8] = b"SAHAHITS";
 
-/// Marks a miss: no primitive has this number.
+/// Marks a miss. No primitive has this index.
 const MISS: u32 = u32::MAX;
 
 impl HitFile {
     /// # Panics
-    /// If the numbers of hits and rays differ.
+    /// If the number of hits is not the number of rays.
     pub fn new(workload: &Workload, hits: Vec<Option<Hit>>) -> Self {
         assert_eq!(workload.rays.len(), hits.len(), "one hit per ray");
         Self { rays: RaysId::of(workload), hits }
     }
 
     /// # Errors
-    /// If the file cannot be read, is not a hit file or is truncated.
+    /// If the file cannot be read or is not a valid hit file.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         read(path, MAGIC, Self::from_bytes)
     }
@@ -42,7 +42,7 @@ impl HitFile {
     }
 
     /// # Errors
-    /// If the hits belong to other rays or another query.
+    /// If `self.rays` differs from `rays`.
     pub fn hits_of(&self, rays: &RaysId) -> Result<&[Option<Hit>], String> {
         if (self.rays.hash, self.rays.count) != (rays.hash, rays.count) {
             let [theirs, ours] =
@@ -66,7 +66,7 @@ impl HitFile {
     }
 }
 
-/// Eight bytes per hit: the bits of `t` and the number of the primitive, little-endian.
+/// Eight bytes per hit, little-endian: the bits of `t`, then the index of the primitive.
 pub fn hits_to_bytes(hits: &[Option<Hit>]) -> Vec<u8> {
     let numbers = |hit: &Option<Hit>| hit.map_or([0, MISS], |hit| [hit.t.to_bits(), hit.prim.index()]);
     hits.iter().flat_map(numbers).flat_map(u32::to_le_bytes).collect()

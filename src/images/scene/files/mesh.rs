@@ -1,8 +1,8 @@
-//! Writes a mesh as a PLY file.
+//! Encodes a mesh as a PLY file.
 
 use crate::geometry::Mesh;
 
-/// The bytes of a PLY file: see [`files`](super). Triangle n becomes face n.
+/// The bytes of a PLY file. Triangle n becomes face n.
 pub fn mesh_bytes(mesh: &Mesh) -> Vec<u8> {
     let header = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\

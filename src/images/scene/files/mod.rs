@@ -31,7 +31,7 @@ pub enum FileError {
     Write(#[from] OutputError),
 }
 
-/// Reads the whole file only if it begins with `magic`, because another file may be endless.
+/// Stops after 8 bytes if the file does not begin with `magic`. The file may be endless.
 fn read<F>(path: &Path, magic: &[u8; 8], parse: fn(&[u8]) -> Result<F, String>) -> Result<F, FileError> {
     let bytes = || {
         let (mut file, mut bytes) = (File::open(path)?, vec![]);

@@ -11,10 +11,10 @@ use crate::output::OutputFile;
 use crate::scene::hash::hexadecimal;
 use crate::scene::{Scene, Workload};
 
-/// A workload and the scene for which it was made.
+/// A workload, with the name and the hash of its scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayFile {
-    /// The name may be empty.
+    /// The name of the scene, or an empty string.
     pub scene: String,
     /// [`Scene::hash`]. `None` for rays without a scene.
     pub scene_hash: Option<String>,
@@ -31,7 +31,7 @@ impl RayFile {
     }
 
     /// # Errors
-    /// If the file cannot be read, is not a ray file, is truncated, or contains an invalid ray.
+    /// If the file cannot be read or is not a valid ray file.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         read(path, MAGIC, Self::from_bytes)
     }
@@ -43,7 +43,7 @@ impl RayFile {
     }
 
     /// # Errors
-    /// If there are no rays, if an origin or direction is not finite, or if an end of an interval is NaN.
+    /// If there are no rays, if an origin or direction is not finite, or if `t_min` or `t_max` is NaN.
     pub fn check(rays: &[Ray]) -> Result<(), String> {
         let bad = |ray: &Ray| {
             let finite = ray.origin.is_finite() && ray.direction.is_finite();
@@ -57,7 +57,7 @@ impl RayFile {
     }
 
     /// # Errors
-    /// If a name contains a control character, which would garble tables.
+    /// If a name contains a control character.
     pub fn check_names(scene: &str, kind: &str) -> Result<(), String> {
         match [scene, kind].into_iter().find(|name| name.chars().any(char::is_control)) {
             Some(name) => Err(format!("the name {name:?} contains a control character: choose another")),
@@ -66,7 +66,7 @@ impl RayFile {
     }
 
     /// # Errors
-    /// If the rays belong to another scene, or to another version of `scene`.
+    /// If `self.scene_hash` is not `None` and differs from the hash of `scene`.
     pub fn check_scene(&self, scene: &Scene) -> Result<(), String> {
         match &self.scene_hash {
             Some(hash) if *hash != scene.hash() => Err(format!(

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::escaped::Escaped as _;
 use crate::geometry::MeshError;
 
-/// Each message is one line with the file, the place in the file, the problem and a remedy.
+/// Each message is one line.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     #[error("{}: unknown extension: use an .obj, .ply, .gltf or .glb file", file.escaped())]
@@ -15,15 +15,15 @@ pub enum LoadError {
     Folder { file: PathBuf },
     #[error("{}: cannot read the file ({cause}): check that it exists and its permissions", file.escaped())]
     Unreadable { file: PathBuf, cause: std::io::Error },
-    /// `place` begins with a comma, such as `, line 3`, or is empty.
+    /// `place` is empty, or begins with a comma as in `, line 3`.
     #[error("{}{place}: {problem}", file.escaped())]
     Malformed { file: PathBuf, place: String, problem: String },
-    /// Numbers in `cause` count from 0.
+    /// The indices in `cause` start at 0.
     #[error("{}: {cause}", file.escaped())]
     Mesh { file: PathBuf, cause: MeshError },
 }
 
-/// A problem in a file whose name the reader does not know.
+/// A problem in a file, without the name of the file.
 #[derive(Debug)]
 pub(super) struct Fault {
     pub place: String,
@@ -39,7 +39,7 @@ impl Fault {
         Self::part(format!("line {line}"), problem)
     }
 
-    /// `part` has a name in the format, such as `accessor 3`, counted from 0.
+    /// `part` names a part of the file, such as `accessor 3`.
     pub fn part(part: impl Display, problem: impl Into<String>) -> Self {
         Self { place: format!(", {part}"), problem: problem.into() }
     }
@@ -48,7 +48,7 @@ impl Fault {
 pub(super) fn quoted(text: impl AsRef<[u8]>) -> String {
     const LONGEST: usize = 60;
     let text = text.as_ref().trim_ascii();
-    // A character has at most four bytes.
+    // A character has at most four bytes in UTF-8.
     let start = String::from_utf8_lossy(&text[..text.len().min(4 * LONGEST + 4)]);
     let escaped: String = start.chars().take(LONGEST).flat_map(char::escape_debug).collect();
     let more = if start.chars().nth(LONGEST).is_some() { "..." } else { "" };

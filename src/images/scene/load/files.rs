@@ -1,10 +1,10 @@
-//! Opens the files that a mesh file names.
+//! Reads mesh files and resolves the file names in mesh files.
 
 use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Component, Path, PathBuf};
 
-/// Returns `None` if the path leaves `folder`. `name` need not be UTF-8.
+/// Returns `None` if `name` leads outside `folder`. `name` need not be UTF-8.
 pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
     #[cfg(unix)]
     let name: &std::ffi::OsStr = std::os::unix::ffi::OsStrExt::from_bytes(name);
@@ -20,7 +20,7 @@ pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
     below.map(|below| folder.join(below))
 }
 
-/// Rejects all files except regular files, because a pipe or a device might never end.
+/// Accepts only regular files, because a pipe or a device might never end.
 pub(super) fn read_start(path: &Path, longest: u64) -> io::Result<Vec<u8>> {
     let file = fs::metadata(path)?;
     if !file.is_file() {

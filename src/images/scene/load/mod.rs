@@ -22,15 +22,20 @@ pub use error::LoadError;
 
 /// The extension determines the format: `.obj`, `.ply`, `.gltf` or `.glb`, in upper or lower case.
 ///
-/// [`Model::notes`] lists the parts that are left out or replaced. The model has at least one material and one
-/// triangle. [`Mesh::new`] accepts the arrays of the model.
+/// [`Model::notes`] reports ignored and replaced parts of the file. The model has at least one material and one
+/// triangle. [`Mesh::new`] accepts the positions and triangles of the model.
 ///
-/// Referenced files are read if their path stays below the folder of the file. A symbolic link may leave this folder.
-/// The size of the file limits the memory.
+/// A reference whose path leads outside the folder of `path` is not followed. A symbolic link in the folder may lead
+/// outside.
 ///
 /// # Errors
-/// If the file cannot be read or breaks the format, a vertex is not finite, an index is out of range, or there are no
-/// triangles.
+/// The causes are:
+/// - an unknown extension,
+/// - an unreadable file,
+/// - a violation of the format,
+/// - a vertex that is not finite,
+/// - an index that is out of range,
+/// - a file without triangles.
 pub fn load(path: &Path) -> Result<Model, LoadError> {
     if path.is_dir() {
         return Err(LoadError::Folder { file: path.into() });

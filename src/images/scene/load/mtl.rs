@@ -13,10 +13,10 @@ use super::text::{lines, name, without_byte_order_mark, words};
 use crate::escaped::Escaped as _;
 use crate::scene::Material;
 
-/// A material is `None` until a library defines it. The flag is set if the material has a texture.
+/// A material is `None` until a library defines the material. The flag is true if the material has a texture.
 type Materials = IndexMap<Vec<u8>, Option<(Material, bool)>>;
 
-/// A library that cannot be read gives a note, not an error, because the mesh is complete without materials. A later
+/// An unreadable library causes a note instead of an error, because the mesh is complete without materials. A later
 /// material replaces an earlier material with the same name.
 pub(super) fn read(
     libraries: IndexSet<Vec<u8>>,
@@ -45,7 +45,7 @@ pub(super) fn read(
     all.collect()
 }
 
-/// A line names one file, whose name may contain spaces, or several files.
+/// `names` is one file name with spaces, or a list of file names.
 fn paths<'a>(names: &'a [u8], folder: &'a Path) -> Box<dyn Iterator<Item = Result<PathBuf, String>> + 'a> {
     let path = move |name: &[u8]| {
         let slashes: Vec<u8> = name.iter().map(|&byte| if byte == b'\\' { b'/' } else { byte }).collect();
@@ -63,10 +63,10 @@ fn read_library(path: &Path, materials: &mut Materials, notes: &mut Notes) -> Re
     let unread = |cause| format!("cannot read the materials in {shown} ({cause})");
     let bytes = read_start(path, u64::MAX).map_err(unread)?;
     let text = without_byte_order_mark(&bytes).map_err(|fault| format!("{shown}: {}", fault.problem))?;
-    // `None` if no face uses the current material.
+    // `None` for a material that no face uses.
     let mut current = None;
     for (number, line) in lines(text) {
-        // tobj would reject an empty name, and keep a comment after a name.
+        // tobj does not receive the name, because tobj rejects an empty name.
         if words(line).next() == Some(b"newmtl") {
             let name = name(line);
             let defined = materials.get_mut(name);
@@ -101,8 +101,8 @@ fn read_value(line: &[u8], (material, has_texture): &mut (Material, bool)) -> Op
     Some(())
 }
 
-/// tobj reads each statement separately, because an invalid value voids a whole library. tobj panics on a colour with
-/// fewer than three numbers, and accepts nan and inf. A single number is a grey.
+/// tobj receives each statement separately, because tobj rejects a library for a single invalid value. tobj panics on a
+/// colour with fewer than three numbers. tobj accepts nan and inf. A colour with a single number is a grey.
 fn values(line: &[u8]) -> Option<tobj::Material> {
     let line = str::from_utf8(line).ok()?;
     let words: Vec<&str> = line.split_whitespace().take_while(|word| !word.starts_with('#')).collect();

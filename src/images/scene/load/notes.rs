@@ -1,4 +1,4 @@
-//! Notes about the parts of a file that were left out.
+//! Notes about ignored parts of a file.
 
 use crate::plural::plural;
 
@@ -8,7 +8,7 @@ pub(super) struct Notes {
     more: usize,
 }
 
-/// Further sentences are only counted.
+/// Notes beyond this number are only counted.
 const MOST: usize = 12;
 
 pub(super) const SMALL: &str = "with fewer than three corners: ignored";
@@ -23,7 +23,7 @@ impl Notes {
         }
     }
 
-    /// This sentence is never left out.
+    /// Adds a note even if `MOST` notes exist.
     pub fn count(&mut self, count: usize, kind: &str, remark: &str) {
         if count > 0 {
             self.kept.push(format!("{} {remark}", plural(count, kind)));

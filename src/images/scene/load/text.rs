@@ -1,4 +1,4 @@
-//! Text files as bytes: numbers and keywords are ASCII, names may be in any encoding.
+//! Parses text files as bytes, because names need not be UTF-8.
 
 use std::borrow::Cow;
 
@@ -8,7 +8,6 @@ use super::error::Fault;
 pub(super) fn without_byte_order_mark(bytes: &[u8]) -> Result<&[u8], Fault> {
     match bytes {
         [0xef, 0xbb, 0xbf, text @ ..] => Ok(text),
-        // A byte order mark of UTF-16 or UTF-32, or two ASCII characters in UTF-16.
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [0, 0, 0xfe, 0xff, ..] | [0, 1..=127, 0, ..] | [1..=127, 0, _, 0, ..] => {
             Err(Fault::line(1, "it is text in UTF-16 or UTF-32: save it as UTF-8"))
         }
@@ -16,13 +15,14 @@ pub(super) fn without_byte_order_mark(bytes: &[u8]) -> Result<&[u8], Fault> {
     }
 }
 
-/// Lines end with `\n`, `\r\n` or `\r`. Numbers count from 1.
+/// Lines end with `\n`, `\r\n` or `\r`. Line numbers start at 1.
 pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let lines = text.split(|&byte| byte == b'\n').map(|line| line.strip_suffix(b"\r").unwrap_or(line));
     (1..).zip(lines.flat_map(|line| line.split(|&byte| byte == b'\r')))
 }
 
-/// A `\` at the end of a line without a comment continues the line. The number of a statement is its first line.
+/// A `\` at the end of a line continues the statement, except in a comment. Each statement is returned with the number
+/// of its first line.
 pub(super) fn statements(text: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
     let mut lines = lines(text);
     std::iter::from_fn(move || {
@@ -56,7 +56,7 @@ fn all_words(line: &[u8]) -> impl Iterator<Item = &[u8]> + Clone {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// The name after a keyword. A `#` begins a comment only between spaces, because `Material #2` is a name.
+/// The name after a keyword. A `#` that touches a word is part of the name, as in `Material #2`.
 pub(super) fn name(line: &[u8]) -> &[u8] {
     let line = line.trim_ascii_start();
     let keyword = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());

@@ -19,8 +19,8 @@ struct Edge {
     face_points: DVec3,
 }
 
-/// The new points are the moved vertices, then one point per edge, then one point per face. The boundary becomes a
-/// cubic B-spline.
+/// The new points are the moved vertices, the edge points and the face points, in this order. The boundary is
+/// subdivided as a cubic B-spline.
 ///
 /// # References
 /// Catmull, Clark: Recursively generated B-spline surfaces on arbitrary topological meshes (1978).

@@ -1,4 +1,4 @@
-//! Meshes with coincident surfaces, which rays hit at the same or nearly the same `t`.
+//! Meshes that are difficult to trace.
 
 use glam::Vec3;
 
@@ -54,7 +54,7 @@ pub fn fan(segments: u32) -> Model {
     )
 }
 
-/// 5,000 copies of one triangle. Each coordinate of a copy is unchanged or moved by one `f32` step.
+/// 5,000 copies of one triangle. Each coordinate of a copy is unchanged or moved to an adjacent `f32` value.
 pub fn near_duplicates() -> Model {
     const CORNERS: [Vec3; 3] = [Vec3::new(-1.1, -0.7, 0.3), Vec3::new(1.3, -0.9, -0.4), Vec3::new(0.1, 1.2, 0.2)];
     joined((0..5000).map(|copy| {
@@ -69,13 +69,13 @@ pub fn near_duplicates() -> Model {
     }))
 }
 
-/// 283 nested cubes, 3,396 triangles. A ray may hit all cubes, and no plane separates two cubes.
+/// 283 nested cubes, 3,396 triangles. No plane separates two cubes.
 pub fn growing_shells() -> Model {
     let sides = std::iter::successors(Some(1.0_f32), |side| Some(side * 1.02));
     joined(sides.take(283).map(|side| boxed(Vec3::ZERO, Vec3::splat(side))))
 }
 
-/// The square with corners (+-1, 0, +-1), facing up, with `cells` cells per side.
+/// An upward-facing square with corners (+-1, 0, +-1) and `cells` cells per side.
 fn ground(cells: u32) -> Model {
     let at = |step: u32| 2.0 * step as f32 / cells as f32 - 1.0;
     let across = cells + 1;

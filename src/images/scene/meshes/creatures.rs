@@ -1,4 +1,4 @@
-//! Three animals made for this project, with few triangles, smooth normals and two materials.
+//! Generates three animal meshes with few triangles.
 
 use glam::{Vec3, vec4};
 
@@ -12,14 +12,14 @@ const EYE: usize = 96;
 struct Design {
     triangles: usize,
     bounds: Aabb,
-    /// Edge length of the surface net.
+    /// The approximate edge length of the surface mesh.
     step: f32,
     fur: [f32; 3],
     /// Centre and radius of the eye at x > 0. The other eye is the mirror image.
     eye: (Vec3, f32),
 }
 
-/// A crouching rabbit that looks to +z.
+/// A crouching rabbit that faces +z.
 pub fn rabbit() -> Model {
     let v = Vec3::new;
     let mut sdf = Sdf::plain();
@@ -51,7 +51,7 @@ pub fn rabbit() -> Model {
     design.model(&sdf)
 }
 
-/// A sitting fox that looks to +z.
+/// A sitting fox that faces +z.
 pub fn fox() -> Model {
     let v = Vec3::new;
     let mut sdf = Sdf::plain();
@@ -84,7 +84,7 @@ pub fn fox() -> Model {
     design.model(&sdf)
 }
 
-/// A young elephant that looks to +z.
+/// A young elephant that faces +z.
 pub fn elephant() -> Model {
     let v = Vec3::new;
     let mut sdf = Sdf::plain();

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// The box of the result equals `bounds` to the last bit. The vertex normals become corner normals.
+/// The bounding box of the scaled model equals `bounds` exactly. Each corner gets the normal of its vertex.
 pub fn fit(model: &mut Model, bounds: Aabb) {
     let from = Aabb::of_points(model.positions.iter().copied());
     let (low, high) = (from.min.as_dvec3(), from.max.as_dvec3());

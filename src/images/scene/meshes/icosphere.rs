@@ -1,4 +1,4 @@
-//! Icosahedra, and spheres made by subdivision of the icosahedron.
+//! Icosahedra and icospheres.
 
 use std::collections::HashMap;
 
@@ -7,8 +7,7 @@ use glam::DVec3;
 use super::{flat, smooth};
 use crate::scene::Model;
 
-/// The coordinates are truncated like the mesh files of the source report's course. The report's ray counts depend on
-/// the truncation.
+/// Truncated coordinates are needed to reproduce the ray counts of the source report.
 fn corners() -> Vec<DVec3> {
     const HEIGHT: f64 = 0.447215;
     let lower = [[0.7236, 0.52572], [-0.276385, 0.85064], [-0.894425, 0.0], [-0.276385, -0.85064], [0.7236, -0.52572]];
@@ -30,10 +29,9 @@ fn sides() -> Vec<[u32; 3]> {
     (0..5).flat_map(gore).collect()
 }
 
-/// The icosahedron of radius 1 with poles on the y axis, facing outward.
+/// An outward-facing icosahedron of radius 1 with poles on the y axis.
 ///
-/// The mesh stores one normal per triangle. Normals computed in world space would differ slightly, and change the ray
-/// counts of the source report.
+/// The stored normals are needed to reproduce the ray counts of the source report.
 pub fn icosahedron() -> Model {
     let points = corners();
     let normal = |triangle: &[u32; 3]| {
@@ -57,8 +55,7 @@ pub fn inside_out_icosahedron() -> Model {
 
 /// A smooth sphere of radius 1 with `20 * steps^2` triangles and `10 * steps^2 + 2` vertices.
 ///
-/// Each row of points divides a straight line evenly, and is then projected onto the sphere. Projection after each
-/// halving would give another silhouette than the source report's sphere.
+/// Repeated halving of edges would not reproduce the silhouette of the sphere in the source report.
 ///
 /// # Panics
 /// If `steps` is 0 or above 4096.
@@ -71,7 +68,7 @@ pub fn icosphere(steps: u32) -> Model {
 
 struct Net {
     points: Vec<DVec3>,
-    /// The points along each edge of the icosahedron, from the end with the lower number.
+    /// Point numbers along each edge of the icosahedron, from the end with the smaller number.
     rows: HashMap<(u32, u32), Vec<u32>>,
     steps: u32,
 }

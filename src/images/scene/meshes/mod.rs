@@ -1,4 +1,4 @@
-//! Mesh generators. The meshes have the same bits on every machine.
+//! Mesh generators. The meshes are bit-identical on every machine.
 
 mod catmull_clark;
 mod coincident;
@@ -77,7 +77,7 @@ fn flat(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Model {
     Model { positions, triangles, ..Model::default() }
 }
 
-/// `quad(row, column)` returns the four corners of a quadrilateral, in order around the quadrilateral.
+/// `quad(row, column)` returns the four corners of one quadrilateral, in order around its boundary.
 fn net(rows: u32, columns: u32, quad: impl Fn(u32, u32) -> [u32; 4]) -> Vec<[u32; 3]> {
     let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
     cells.flat_map(|(row, column)| halves(quad(row, column))).collect()

@@ -1,4 +1,4 @@
-//! Builds architecture from surface patches and boxes in several materials. Patches share no vertices.
+//! Builds architecture from surface patches. Different patches share no vertices.
 
 use glam::Vec3;
 
@@ -19,7 +19,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// Sets the material of the patches that are added next. The name identifies a material.
+    /// Sets the material of later patches. The name identifies a material.
     pub fn of(&mut self, material: &Material) {
         let known = self.model.materials.iter().position(|m| m.name == material.name);
         self.material = known.unwrap_or(self.model.materials.len()) as u32;
@@ -28,7 +28,7 @@ impl Patches {
         }
     }
 
-    /// Seen from the front, columns run to the right and rows upwards. `round` joins the last column to the first
+    /// Seen from the front, columns run to the right. Rows run upwards. `round` joins the last column to the first
     /// column.
     pub fn patch(
         &mut self,
@@ -58,7 +58,7 @@ impl Patches {
         model.material_of.resize(model.triangles.len(), self.material);
     }
 
-    /// The corners run counter-clockwise if seen from the front.
+    /// Seen from the front, the corners run counter-clockwise.
     pub fn quad(&mut self, [a, b, c, d]: [Vec3; 4]) {
         self.patch([1, 1], false, Finish::Flat, |column, row| [[a, b], [d, c]][row][column]);
     }

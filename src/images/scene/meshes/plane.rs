@@ -21,7 +21,7 @@ pub fn cube() -> Model {
     flat(cube_corners(), sides.into_iter().flat_map(halves).collect())
 }
 
-/// The cube without its side z = 1, facing inward.
+/// A cube without the side z = 1. The front of every triangle faces inward.
 pub fn cornellbox() -> Model {
     let sides = [
         ("floor", [1, 0, 4, 5]),

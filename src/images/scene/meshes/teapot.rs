@@ -1,4 +1,4 @@
-//! The Utah teapot, as in the source report's scene.
+//! The Utah teapot, as in the source report, a student report that this project reproduces.
 
 use std::collections::HashMap;
 
@@ -15,10 +15,9 @@ pub(super) const BOUNDS: Aabb =
 
 const STEPS: usize = 4;
 
-/// The smooth teapot of the source report, with y up and the spout towards +x.
+/// The smooth-shaded teapot, with y up and the spout towards +x.
 ///
-/// Newell's 32 patches are evaluated on grids and welded into four shells. Each quadrilateral is cut along the longer
-/// diagonal, as in the mesh file of the report's course.
+/// Each quadrilateral is cut along the longer diagonal, as in the mesh of the source report.
 pub fn teapot() -> Model {
     let (points, faces) = welded_patches();
     let (points, quads) = catmull_clark::subdivide(&points, &faces);
@@ -27,11 +26,10 @@ pub fn teapot() -> Model {
     smooth(points, triangles)
 }
 
-/// A control point on the rim: its number (from 0), its published x, and its x here. The report's mesh swaps two digits
-/// of x.
+/// Index, published x and used x of one control point. The mesh of the source report swaps two digits of x.
 const PUBLISHED: (usize, f64, f64) = (16, -0.784, -0.874);
 
-/// A patch lists the numbers of its points, counted from 1.
+/// Each patch contains sixteen point numbers, counted from 1.
 fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     let (mut patches, mut points) = (Vec::new(), Vec::new());
     for line in PATCHES.lines().filter(|l| !l.starts_with(['#', 'p'])) {
@@ -44,7 +42,7 @@ fn published() -> (Vec<[usize; 16]>, Vec<DVec3>) {
     (patches, points)
 }
 
-/// At a pole, one side of a patch is a single point, so the faces are triangles.
+/// If one side of a patch is a single point, the faces at this point are triangles.
 fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     let (patches, mut controls) = published();
     let (number, published, used) = PUBLISHED;
@@ -77,7 +75,7 @@ fn welded_patches() -> (Vec<DVec3>, Vec<Vec<u32>>) {
     (points, faces)
 }
 
-/// Patches are numbered from 0. The shells are body, handle, spout and lid.
+/// Patches are numbered from 0. The shells 0 to 3 are body, handle, spout and lid.
 fn shell(patch: usize) -> usize {
     match patch {
         0..12 | 28.. => 0,
@@ -129,7 +127,7 @@ mod tests {
         }
     }
 
-    /// The mesh file may not be distributed, so this test runs only if the file exists.
+    /// We are not permitted to distribute the mesh file. Without the file, the test is skipped.
     #[test]
     fn vertices_triangles_and_normals_are_those_of_the_report() {
         let folder = std::env::var_os("SAHARA_DATA").unwrap_or_default();

@@ -7,14 +7,14 @@ use serde::Deserialize;
 use super::{flat, halves, noise};
 use crate::scene::Model;
 
-/// Height of the widest hills. The hills of each further octave are half as high and half as wide.
+/// Height of the widest hills. Each further octave halves the height and the width of the hills.
 const HEIGHT: f32 = 0.2;
 
 /// Number of hills of the first octave along one side.
 const HILLS: f32 = 4.0;
 
-/// Ground over the square from -1 to 1 in x and z. The last row of cells may be incomplete. A larger number of
-/// triangles adds smaller hills to the hills of `seed`.
+/// Ground over the square from -1 to 1 in x and z. The last row of cells may be incomplete or missing. More triangles
+/// add smaller hills. The larger hills do not change.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Terrain {
@@ -29,14 +29,14 @@ fn one() -> u32 {
 }
 
 impl Terrain {
-    /// A mesh of this size takes some gigabytes.
+    /// A mesh of this size needs some gigabytes of memory.
     pub const MOST: usize = 1 << 27;
 
     pub fn model(self) -> Model {
         let cells = self.triangles.div_ceil(2);
         let columns = cells.isqrt() + usize::from(cells.isqrt() * cells.isqrt() < cells);
         let rows = cells.div_ceil(columns);
-        // Vertices would sample hills narrower than two cells too coarsely.
+        // Hills narrower than two cells would be sampled too coarsely.
         let octaves = (0..).take_while(|&k| HILLS * (1 << k) as f32 <= columns as f32 / 2.0).count().max(1) as u32;
         let across = columns + 1;
         let vertex = |i: usize| {

@@ -21,8 +21,7 @@ pub fn torus() -> Model {
     smooth((0..SEGMENTS * SIDES).map(point).collect(), net(SEGMENTS, SIDES, quad))
 }
 
-/// Each pole consists of `segments` vertices at one point, so `2 * segments` triangles have no area. The sphere in the
-/// source report's course has such poles.
+/// Each pole consists of `segments` vertices at one point, so `2 * segments` triangles have no area.
 ///
 /// # Panics
 /// If `segments` is below 3 or `bands` is below 2.
@@ -38,7 +37,7 @@ pub fn uv_sphere(segments: u32, bands: u32) -> Model {
     smooth((0..segments * (bands + 1)).map(point).collect(), net(bands, segments, quad))
 }
 
-/// Cosine and sine of a fraction of a full turn, exact at multiples of a quarter turn.
+/// Cosine and sine of the angle `step / steps * TAU`. The results are exact for multiples of a quarter turn.
 fn on_circle(step: u32, steps: u32) -> (f64, f64) {
     if (4 * step).is_multiple_of(steps) {
         return [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][(4 * step / steps % 4) as usize];

@@ -8,12 +8,12 @@ pub use surface_point::{SurfacePoint, barycentrics};
 
 use crate::geometry::Ray;
 
-/// A rounded hit point may lie behind the surface, so the ray hits the surface again (acne). With too large an offset,
-/// the ray misses a nearby surface (leak).
+/// A rounded hit point may lie behind the surface. A ray from this point can hit the surface again (acne). If the
+/// origin moves too far, the ray can miss nearby surfaces (leak).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Offset {
-    /// Moves every origin, including the eye, by this distance along the ray direction. A grazing ray may hit its
-    /// surface again.
+    /// Moves every origin, including the eye, by this distance along the ray direction. A grazing ray may hit the
+    /// surface that it leaves.
     Direction(f32),
     /// Moves the origin along the normal by the error bound of the point. The origins of camera rays do not move.
     ///
@@ -23,15 +23,15 @@ pub enum Offset {
     ///
     /// # References
     /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. Unlike in pbrt, the
-    /// origin moves by at least one float on each axis with a nonzero normal. The error bound may be 0 or underflow.
+    /// origin moves by at least one float even if the error bound is 0.
     ErrorBounded,
 }
 
-/// The smallest positive `f32`. A hit at `t = 0` belongs to the surface that the ray leaves.
+/// The smallest positive `f32`. This value excludes a hit at `t = 0` on the surface that the ray leaves.
 const T_MIN: f32 = f32::from_bits(1);
 
 impl Offset {
-    /// `direction` may have any length above 0. The direction of the ray has unit length.
+    /// `direction` must not be zero. The direction of the returned ray has unit length.
     pub fn leave(self, start: &SurfacePoint, direction: Vec3) -> Ray {
         match self {
             Self::Direction(distance) => moved_along(start.position, direction, distance),

@@ -6,7 +6,7 @@ use crate::geometry::Ray;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     pub position: Vec3,
-    /// A bound of the distance to the triangle along each axis, at least 0.
+    /// A nonnegative bound of the error of `position` on each axis.
     pub error: Vec3,
     /// Unit normal on the front side. Zero if the triangle is degenerate.
     pub normal: Vec3,
@@ -19,10 +19,9 @@ const GAMMA_7: f32 = {
 };
 
 impl SurfacePoint {
-    /// The weights are clamped and divided by their sum, so the point lies in the triangle except for rounding.
+    /// The function clamps the weights to [0, 1] and divides the weights by their sum.
     ///
-    /// `error` is pbrt's bound for `f32` arithmetic. The function computes in `f64`, so the bound has a margin for the
-    /// rounding of triangle tests.
+    /// `error` is the error bound from pbrt.
     ///
     /// # References
     /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.
@@ -36,12 +35,12 @@ impl SurfacePoint {
         Self { position: point.as_vec3(), error: magnitude.as_vec3() * GAMMA_7, normal: normal.as_vec3() }
     }
 
-    /// The point, moved to the side of the triangle to which `direction` points. The additional float on each axis
-    /// makes up for rounding.
+    /// Returns a point off the surface, on the side that `direction` points to.
     pub(super) fn moved_out(&self, direction: Vec3) -> Vec3 {
         let is_behind = self.normal.as_dvec3().dot(direction.as_dvec3()) < 0.0;
         let normal = if is_behind { -self.normal } else { self.normal };
         let moved = self.position + normal * normal.abs().dot(self.error);
+        // `next_up` and `next_down` compensate for the rounding of `moved`.
         Vec3::from_array(std::array::from_fn(|axis| match normal[axis] {
             n if n > 0.0 => moved[axis].next_up(),
             n if n < 0.0 => moved[axis].next_down(),
@@ -50,8 +49,7 @@ impl SurfacePoint {
     }
 }
 
-/// Barycentric coordinates of the point where the ray's line meets the plane of the corners. If the line misses the
-/// triangle, some coordinates are outside [0, 1].
+/// Barycentric coordinates of the point where the ray's line meets the plane of the corners.
 pub fn barycentrics(ray: &Ray, corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());

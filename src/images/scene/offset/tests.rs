@@ -4,7 +4,7 @@ use super::*;
 
 const MIDDLE: DVec3 = DVec3::splat(1.0 / 3.0);
 
-/// The exact sign of the result gives the side of the plane of `corners`.
+/// The sign of the result is exact.
 fn side(corners: [Vec3; 3], point: Vec3) -> f64 {
     let [a, b, c, p] = [corners[0], corners[1], corners[2], point].map(|v| {
         let v = v.as_dvec3();

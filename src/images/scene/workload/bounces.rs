@@ -8,7 +8,7 @@ use crate::accel::DynAccel;
 use crate::geometry::{Hit, Ray};
 use crate::scene::{Scene, Surface};
 
-/// Rays that a thread traces at once. The hits do not depend on this number.
+/// Number of rays per chunk. The hits do not depend on the chunk size.
 const CHUNK: usize = 4096;
 
 pub struct SurfaceHit {

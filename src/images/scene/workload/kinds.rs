@@ -1,6 +1,6 @@
 //! All workloads without parameters.
 //!
-//! To add a workload, write a function that makes the rays, and add a line to the table.
+//! To add a workload, write a function that makes the rays, and add a line to `kinds!`.
 
 use std::str::FromStr;
 
@@ -40,25 +40,26 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// Rays from the eye through the middle of each pixel. Secondary rays have the order of their primary rays.
+    /// Rays from the eye through the middle of each pixel.
     Primary, "primary", Closest, primary::centres;
-    /// Rays from the eye through the corners of pixels. On regular meshes, these rays hit edges and vertices.
+    /// Rays from the eye through the top left corner of each pixel.
     Corners, "corners", Closest, primary::corners;
     /// Any-hit rays from each primary hit to each light. The rays of one light are consecutive.
     Shadow, "shadow", Any, bounces::shadow;
-    /// Rays from each primary hit, on any material, in the direction reflected about the shading normal.
+    /// One ray per primary hit on any material, reflected about the shading normal.
     Mirror, "mirror", Closest, bounces::mirror;
     /// Rays from each primary hit in a random direction, cosine-distributed about the shading normal.
     Diffuse, "diffuse", Closest, bounces::diffuse;
-    /// Like [`WorkloadKind::Diffuse`], but any hit within a tenth of the diagonal of the scene's box.
+    /// Like [`WorkloadKind::Diffuse`], but any-hit rays of limited length. The length is a tenth of the diagonal of the
+    /// scene's box.
     Ambient, "ambient", Any, bounces::ambient;
-    /// Lines through two random points of the sphere around the scene's box.
+    /// Each ray passes through two random points on the sphere around the scene's box.
     Random, "random", Closest, lines::random;
-    /// Rays in both directions of each axis. Every fourth row and column lies at a vertex coordinate.
+    /// Rays in both directions of each axis.
     Axis, "axis", Closest, lines::axis;
-    /// The primary ray of each pixel, then the mirror rays of the pixel.
+    /// For each pixel, the primary ray and then the mirror rays.
     Image, "image", Closest, picture::closest;
-    /// The shadow rays of the picture, in the order of [`WorkloadKind::Image`].
+    /// The shadow rays of the picture, sorted by pixel and then by recursion level.
     ImageShadow, "image-shadow", Any, picture::shadow;
 }
 

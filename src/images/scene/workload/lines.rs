@@ -17,8 +17,7 @@ pub fn random(source: &mut Source) -> Vec<Ray> {
     (0..source.sampling.pixels()).map(|_| ray()).collect()
 }
 
-/// Every fourth row and column of the lattice has a vertex coordinate. Rays there are likely to pass through vertices,
-/// along edges and in the planes of triangles.
+/// Every fourth row and column of the ray lattice lies at a vertex coordinate.
 pub fn axis(source: &mut Source) -> Vec<Ray> {
     let scene = source.scene;
     let Some((centre, radius)) = sphere(scene) else { return vec![] };

@@ -20,26 +20,25 @@ use crate::geometry::Ray;
 pub use kinds::WorkloadKind;
 pub use source::Sampling;
 
-/// Rays with one query, with the same bits on every machine. Secondary rays depend on the triangle test of the
-/// structure that finds their origins.
+/// Rays with one query. The rays have the same bits on every machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Workload {
-    /// [`WorkloadKind::name`], or the name in a ray file.
+    /// [`WorkloadKind::name`], or the name from a ray file.
     pub name: String,
     pub query: Query,
     pub rays: Vec<Ray>,
 }
 
 impl Workload {
-    /// `accel` must be built over the scene's mesh. The workload may be empty, for example without lights or primary
-    /// hits.
+    /// `accel` must be built over the scene's mesh. Secondary rays depend on the triangle test of `accel`. The workload
+    /// may be empty.
     pub fn new(scene: &Scene, kind: WorkloadKind, sampling: &Sampling, accel: &dyn DynAccel) -> Self {
         let mut source = Source { scene, sampling, accel, sampler: Sampler::new(kind.name(), sampling.seed) };
         let rays = kind.rays(&mut source);
         Self { name: kind.name().into(), query: kind.query(), rays: spread(rays, sampling.limit) }
     }
 
-    /// The bits of all rays, little-endian: origin, `t_min`, direction, `t_max`.
+    /// All rays as little-endian `f32` values. The order in a ray is origin, `t_min`, direction, `t_max`.
     pub fn bytes(&self) -> Vec<u8> {
         let numbers = |ray: &Ray| {
             let [o, d] = [ray.origin, ray.direction];

@@ -39,7 +39,7 @@ fn walk(source: &Source, primary: Vec<Ray>, mut visit: impl FnMut(usize, &Surfac
     }
 }
 
-/// The sort is stable to keep the levels of a pixel in order.
+/// The stable sort keeps the rays of a pixel in the order of the levels.
 fn by_pixel(mut rays: Vec<(usize, Ray)>) -> Vec<Ray> {
     rays.sort_by_key(|&(pixel, _)| pixel);
     rays.into_iter().map(|(_, ray)| ray).collect()

@@ -1,4 +1,4 @@
-//! Rays from the eye, row by row or in the tile order of renderers.
+//! Rays from the eye, row by row or tile by tile.
 
 use glam::{UVec2, Vec2};
 
@@ -18,11 +18,12 @@ pub fn by_row(source: &Source, offset: Vec2) -> Vec<Ray> {
     source.scene.primary_rays(source.sampling.size, offset, 0..source.sampling.pixels())
 }
 
-/// Sides of a tile and of a block, in pixels.
+/// Side length of a tile, in pixels.
 const TILE: u32 = 4;
+/// Side length of a block, in pixels.
 const BLOCK: u32 = 32;
 
-/// Consecutive rays become neighbours in the picture, as in renderers, so structures can trace packets efficiently.
+/// The tile order makes packets of consecutive rays coherent.
 fn in_tiles<T: Copy>(pixels: &[T], [width, height]: [u32; 2]) -> Vec<T> {
     assert_eq!(pixels.len(), width as usize * height as usize, "a picture has all its pixels");
     let corners = |from: UVec2, to: UVec2, side: u32| {

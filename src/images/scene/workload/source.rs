@@ -9,10 +9,9 @@ use crate::scene::Scene;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
-    /// Width and height of the picture whose primary hits are the origins of secondary rays. The number of pixels is
-    /// also the number of random rays.
+    /// Width and height of the picture, in pixels.
     pub size: [u32; 2],
-    /// A larger workload is reduced to an evenly spread subset.
+    /// Maximum number of rays. A larger workload is reduced to an evenly spaced subset.
     pub limit: usize,
     pub seed: u64,
 }
@@ -22,7 +21,7 @@ impl Sampling {
         Self { size: scene.size, limit: usize::MAX, seed: 0 }
     }
 
-    /// A subset of the rays is for checking hits, not for measuring times.
+    /// Use this sampling to check hits, not to measure times.
     pub fn some(scene: &Scene, limit: usize, seed: u64) -> Self {
         Self { limit, seed, ..Self::of(scene) }
     }
@@ -34,7 +33,7 @@ impl Sampling {
 
 pub(super) struct Source<'a> {
     pub scene: &'a Scene,
-    /// [`Workload::new`](super::Workload::new) applies the limit to the finished rays.
+    /// [`Workload::new`](super::Workload::new) applies `limit` after all rays are made.
     pub sampling: &'a Sampling,
     pub accel: &'a dyn DynAccel,
     pub sampler: Sampler,
@@ -44,7 +43,7 @@ pub(super) struct Source<'a> {
 pub(super) struct Sampler(Pcg32);
 
 impl Sampler {
-    /// Each workload has a different sequence of random numbers.
+    /// Each name gives a different sequence of random numbers.
     pub fn new(name: &str, seed: u64) -> Self {
         let mixed = name.bytes().fold(seed, |mixed, byte| mixed.wrapping_mul(0x0100_0000_01b3) ^ u64::from(byte));
         Self(Pcg32::seed_from_u64(mixed))

@@ -71,7 +71,7 @@ fn the_number_of_secondary_rays_follows_from_hits_and_lights() {
     assert_eq!(count(WorkloadKind::Shadow), 2 * hits);
     assert_eq!([WorkloadKind::Mirror, WorkloadKind::Diffuse, WorkloadKind::Ambient].map(count), [hits; 3]);
     assert_eq!(count(WorkloadKind::Axis), 6 * 8 * 8);
-    // Each hit on the floor adds one mirror ray. No ray hits the mirror twice.
+    // Each primary hit on the floor adds one mirror ray. Mirror rays do not hit the floor.
     assert_eq!(count(WorkloadKind::Image), 24 * 16 + floor);
 }
 

@@ -1,4 +1,4 @@
-//! Axes with round numbers, and the legend below them.
+//! Draws axes and legends.
 
 use std::fmt::Debug;
 
@@ -15,10 +15,9 @@ use super::canvas::{Area, DrawResult, TEXT, text, text_style, widest, width_of};
 use super::palette::{Colour, FAINT, INK, MIDDLE};
 use crate::report::number::count;
 
-/// A logarithmic axis with the numbers that label it.
 pub type LogAxis = WithKeyPoints<LogCoord<f64>>;
 
-/// The multiples of a power of ten that label an axis, from dense to sparse.
+/// Candidate sets of axis labels, as multiples of powers of ten, from dense to sparse.
 const FACTORS: [&[f64]; 4] = [&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]];
 
 /// A horizontal axis, `length` pixels long.
@@ -31,11 +30,11 @@ pub fn upward(ends: [f64; 2], length: i32) -> LogAxis {
     log_axis(ends, length, |_| 48)
 }
 
-/// Labels the axis with as many round numbers as fit. Each number takes `space` pixels.
+/// A logarithmic axis with the densest round numbers that fit. `space` returns the length in pixels that a label needs.
 fn log_axis([low, high]: [f64; 2], length: i32, space: impl Fn(f64) -> i32) -> LogAxis {
     let per_decade = f64::from(length) / libm::log10(high / low);
     let exponents = libm::floor(libm::log10(low)) as i32..=libm::floor(libm::log10(high)) as i32;
-    // If `FACTORS` are too dense, try every second power of ten, then every third, and so on.
+    // If all sets of `FACTORS` are too dense, try every second power of ten, then every third.
     let between = FACTORS.into_iter().map(|factors| (1, factors));
     let powers = (2..20).map(|step| (step, FACTORS[3]));
     let ticks = |(step, factors): (i32, &[f64])| -> Vec<f64> {
@@ -54,8 +53,8 @@ fn log_axis([low, high]: [f64; 2], length: i32, space: impl Fn(f64) -> i32) -> L
     (low..high).log_scale().with_key_points(ticks)
 }
 
-/// The range of positive `values`, at least a factor of two. The ends of the range then move outward by the fractions
-/// `below` and `above` of its logarithmic width.
+/// The range of positive `values`, with padding at both ends. Before padding, the high end is at least twice the low
+/// end. `below` and `above` are the paddings, as fractions of the logarithmic width.
 pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f64; 2] {
     let (low, high) = values.fold((f64::INFINITY, 0.0), |(low, high), v| (v.min(low), v.max(high)));
     if low > high {
@@ -65,7 +64,7 @@ pub fn padded(values: impl Iterator<Item = f64>, [below, above]: [f64; 2]) -> [f
     [low / libm::pow(high / low, below), high * libm::pow(high / low, above)]
 }
 
-/// Height of the area below a horizontal axis.
+/// Height in pixels of the labels and the title below a horizontal axis.
 pub const BOTTOM: i32 = 96;
 pub const BOTTOM_WITHOUT_TITLE: i32 = 52;
 
@@ -73,7 +72,7 @@ pub const GAP: i32 = 20;
 
 pub type Axes<'a, Y = LogAxis> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogAxis, Y>>;
 
-/// The titles and labels of two axes, and margins in pixels.
+/// Lengths are in pixels.
 pub struct AxisLabels<'a, V = f64> {
     pub x_title: &'a str,
     pub y_title: &'a str,
@@ -109,22 +108,22 @@ pub fn log_log<'a>(
     let (width, height) = area.dim_in_pixel();
     let y = upward(y_ends, height as i32 - GAP - BOTTOM);
     let texts: Vec<String> = y.bold_points().iter().map(|tick| tick_text(*tick)).collect();
-    // The title of the vertical axis is rotated: its width is the height of a line of text.
+    // The rotated title of the vertical axis is `TEXT` pixels wide.
     let left = widest(&texts) + GAP + TEXT;
-    // The last number of the axis extends beyond the end of the axis.
+    // A label at the right end of the horizontal axis extends beyond the axis.
     let right = 3 * GAP;
     let x = across(x_ends, width as i32 - left - GAP - right);
     axes(area, x, y, &AxisLabels { x_title, y_title, y_text: &|y| tick_text(*y), top: GAP, left, right })
 }
 
-/// Height of a name in the legend.
+/// Height in pixels of a row of the legend.
 const LINE: i32 = 40;
 
 pub fn legend_height(names: &[String]) -> i32 {
     if names.is_empty() { 0 } else { names.len() as i32 * LINE + GAP }
 }
 
-/// Draws the legend at the bottom of `area`. Returns the remaining area.
+/// Draws the legend at the bottom of `area`. Returns the area above the legend.
 pub fn legend<'a>(area: &Area<'a>, names: &[String], colours: &[Colour]) -> DrawResult<Area<'a>> {
     const DOT: i32 = 8;
     let (axes, below) = area.split_vertically(area.dim_in_pixel().1 as i32 - legend_height(names));
@@ -138,7 +137,7 @@ pub fn legend<'a>(area: &Area<'a>, names: &[String], colours: &[Colour]) -> Draw
 
 /// A round number as an axis label: `0.001`, `20`, `5,000`, `1e6`.
 pub fn tick_text(value: f64) -> String {
-    // Remove the rounding error of the product of a factor and a power of ten.
+    // Remove the rounding errors of the axis ticks.
     let rounded: f64 = format!("{value:.6e}").parse().expect("a number");
     match rounded {
         0.0 => "0".into(),

@@ -14,7 +14,7 @@ use crate::report::number::figures;
 use crate::report::plot::chart::{Bar, BarGroup, Bars};
 
 impl Bar {
-    /// The ends of the bar on the axis. Factors below 1 extend to the left of 1, factors above 1 to the right.
+    /// The low end and the high end of the bar.
     fn reach(&self) -> [f64; 2] {
         let mut reach = self.value().map_or([1.0; 2], |value| [value.estimate.min(1.0), value.estimate.max(1.0)]);
         if let Self::Product(factors, _) = self {
@@ -27,36 +27,40 @@ impl Bar {
 
 const FOOT: i32 = 48;
 
-/// Minimum width of a group, without the labels.
+/// Minimum width of a group in pixels if several groups are side by side. The width does not include labels.
 const GROUP: i32 = 380;
 
 /// Space for the number at the end of the longest bar.
 const NUMBER: i32 = 124;
 
 struct Layout {
-    /// Space for labels to the left of the bars; 0 if each label stands above its bar.
+    /// Width of the labels beside the bars. If the width is 0, the labels are above the bars.
     left: i32,
-    /// Heights of a bar, of its row, and of the row with the label above it.
+    /// Height of a bar.
     bar: i32,
+    /// Height of a row, not including a label above the bar.
     row: i32,
+    /// Vertical distance between the middles of two adjacent rows.
     step: i32,
-    /// Number of groups side by side, and the width of a group.
+    /// Number of groups side by side.
     columns: usize,
+    /// Width of a group, not including labels.
     column: i32,
-    /// Height of the heading of a group, and of a whole group.
+    /// Height of the heading of a group.
     head: i32,
+    /// Height of a group, including the heading.
     group: i32,
     height: i32,
 }
 
 impl Layout {
-    /// The vertical middle of a row, in pixels below the top of the first row.
+    /// The vertical middle of a row, in pixels below the top of the plotting area.
     fn middle(&self, row: usize) -> i32 {
         (row as i32 + 1) * self.step - self.row / 2
     }
 }
 
-/// The colour of a factor of a product, and the colour of text on it.
+/// The fill colour and the text colour of a factor.
 fn part_colours(part: usize) -> [Colour; 2] {
     let part = part % PARTS.len();
     [PARTS[part].light, if part == PARTS.len() - 1 { INK.light } else { PAPER.light }]
@@ -141,7 +145,8 @@ impl Bars {
         Ok(())
     }
 
-    /// The ends of the axis include all bars. Intervals extend each end by at most the factor `margin`.
+    /// The ends of the horizontal axis. The axis includes all bars. Intervals extend each end by at most the factor
+    /// `margin`.
     fn ends(&self) -> [f64; 2] {
         let bars = || self.groups.iter().flat_map(|group| &group.bars);
         let reach = bars().map(Bar::reach);
@@ -153,7 +158,7 @@ impl Bars {
     }
 }
 
-/// Vertical coordinates are pixels below the top of the first row.
+/// Vertical coordinates are pixels below the top of the plotting area.
 struct BarChart<'a, 's> {
     whole: &'a Area<'s>,
     layout: &'a Layout,
@@ -189,7 +194,7 @@ impl BarChart<'_, '_> {
         Ok(())
     }
 
-    /// `end` is the right end of the bar. The interval is `below` pixels below the middle of the row.
+    /// `end` is the right end of the bar. The interval is drawn `below` pixels under the middle of the row.
     fn value(&self, row: usize, value: Estimate, end: f64, below: i32) -> DrawResult {
         let (axis, middle) = (self.axes.x_range(), self.layout.middle(row));
         let high = value.high().unwrap_or(value.estimate);

@@ -1,6 +1,6 @@
-//! The drawing primitives of all charts: areas of an SVG file, and text in one font.
+//! Drawing primitives of all charts.
 //!
-//! Lengths are pixels of the SVG's view box, two per unit of the requested width.
+//! Lengths are in pixels of the SVG's view box.
 
 use std::io;
 use std::sync::Once;
@@ -18,16 +18,17 @@ pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 pub type DrawResult<T = ()> = Result<T, DrawingAreaErrorKind<io::Error>>;
 
-/// A point in pixels, relative to the top left corner of the drawing.
+/// A point in pixels, relative to the top left corner of an [`Area`].
 pub type Place = (i32, i32);
 
 /// Height of a line of text.
 pub const TEXT: i32 = 32;
 
-/// The viewer of the SVG chooses the font. Text is measured with the embedded font.
+/// The program that displays the SVG chooses the font. Text is measured with the embedded font.
 const FONT: &str = "sans-serif";
 
-/// Registers the embedded font: layouts are equal on every system. Ubuntu Light has the Ubuntu Font Licence.
+/// Registers the embedded font. With this font, layouts are equal on all systems. Ubuntu Light has the Ubuntu Font
+/// Licence.
 pub fn register() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
@@ -40,7 +41,7 @@ pub fn text_style(colour: Colour) -> TextStyle<'static> {
     TextStyle { color: colour.to_backend_color(), ..(FONT, TEXT).into_font().into() }
 }
 
-/// The width of a line of text plus 6 %, because the viewer's font may be wider.
+/// The width of a line of text plus 6 %. The displayed font may be wider than the embedded font.
 pub fn width_of(text: &str) -> i32 {
     register();
     let (width, _) = (FONT, TEXT).into_font().box_size(text).expect("the font is registered");
@@ -51,7 +52,7 @@ pub fn widest<'a>(texts: impl IntoIterator<Item = &'a String>) -> i32 {
     texts.into_iter().map(|text| width_of(text)).max().unwrap_or(0)
 }
 
-/// The text is vertically centred at `place`. `side` is the part of the text at `place`: left end, middle or right end.
+/// The vertical middle of the text is at `place`. With `HPos::Left`, the left end of the text is at `place`.
 pub fn text(area: &Area, text: &str, place: Place, colour: Colour, side: HPos) -> DrawResult {
     area.draw_text(text, &text_style(colour).pos(Pos::new(side, VPos::Center)), place)
 }

@@ -1,4 +1,4 @@
-//! Draws charts with plotters, as SVG.
+//! Draws charts as SVG with the crate `plotters`.
 
 mod axes;
 mod bars;
@@ -22,7 +22,7 @@ use palette::{PAPER, colours};
 const DRAWN: &str = "drawing into memory cannot fail, and the font is registered";
 
 impl Chart {
-    /// Width and height in pixels for the requested `width`.
+    /// Width and height in pixels. The parameter `width` is in units of two pixels.
     fn size(&self, width: f64) -> (u32, u32) {
         let width = if matches!(self, Self::Scatter(_)) { 800.0 } else { width };
         let width = (2.0 * width).round() as i32;
@@ -45,7 +45,7 @@ impl Chart {
         area.present()
     }
 
-    /// An SVG file. `width` is in units of two pixels; scatter plots are always 800 units wide.
+    /// The text of an SVG file. `width` is in units of two pixels. Scatter plots ignore `width`.
     pub fn svg(&self, width: f64) -> String {
         let mut text = String::new();
         self.draw(&SVGBackend::with_string(&mut text, self.size(width)).into_drawing_area()).expect(DRAWN);

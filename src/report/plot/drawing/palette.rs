@@ -1,4 +1,4 @@
-//! Colours for light mode and dark mode. A structure has the same colour in every figure.
+//! Colours for light mode and dark mode.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,6 @@ use plotters::style::RGBColor;
 
 use crate::measure::checksum;
 
-/// Drawings contain light-mode colours. The page replaces them in dark mode.
 pub type Colour = RGBColor;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +25,8 @@ pub const INK: Role = role("ink", [34, 38, 43], [226, 228, 231]);
 pub const MIDDLE: Role = role("middle", [100, 106, 114], [157, 164, 173]);
 pub const FAINT: Role = role("faint", [222, 225, 229], [52, 57, 64]);
 
-/// Colours of series. The first ten are distinct for colour-blind readers (after Okabe, Ito: Color universal design,
-/// 2008). All have enough contrast for text.
+/// Colours of data series. The first ten colours are distinct for colour-blind readers (after Okabe, Ito: Color
+/// universal design, 2008). Every colour has enough contrast for text.
 pub const SERIES: [Role; 24] = [
     role("s0", [106, 110, 116], [160, 166, 174]),
     role("s1", [184, 74, 0], [255, 150, 84]),
@@ -55,7 +54,7 @@ pub const SERIES: [Role; 24] = [
     role("s23", [6, 90, 107], [118, 226, 248]),
 ];
 
-/// Colours of the factors of a bar: shades of a colour that no structure has.
+/// Colours of the factors of a bar. No structure has one of these colours.
 pub const PARTS: [Role; 3] = [
     role("p0", [44, 62, 84], [204, 216, 230]),
     role("p1", [98, 124, 152], [134, 154, 176]),
@@ -66,7 +65,7 @@ pub fn roles() -> impl Iterator<Item = Role> {
     [PAPER, INK, MIDDLE, FAINT].into_iter().chain(SERIES).chain(PARTS)
 }
 
-/// Structure `i` has the fixed colour `SERIES[i]`.
+/// The structure `STRUCTURES[i]` has the fixed colour `SERIES[i]`.
 const STRUCTURES: [&str; 14] = [
     "brute-force",
     "median-kd",
@@ -88,8 +87,8 @@ pub fn colours(labels: &[String]) -> Vec<Colour> {
     roles_of(labels).into_iter().map(|role| role.light).collect()
 }
 
-/// The names in `STRUCTURES` have fixed colours. The hash of any other label selects one of the remaining colours. A
-/// label has the same colour in every chart unless the hashes of two labels collide.
+/// Names in `STRUCTURES` have fixed colours. For any other label, a hash selects one of the remaining colours. Without
+/// hash collisions, a label has the same colour in every chart.
 pub fn roles_of(labels: &[String]) -> Vec<Role> {
     let own = |label: &str| STRUCTURES.iter().position(|structure| *structure == label);
     let others = labels.iter().map(String::as_str).filter(|label| own(label).is_none());
@@ -98,8 +97,8 @@ pub fn roles_of(labels: &[String]) -> Vec<Role> {
     labels.iter().map(role).collect()
 }
 
-/// Assigns a number below `n` to each text. Numbers repeat only if there are more than `n` texts. The order of the
-/// texts does not matter.
+/// Assigns an index below `n` to each text. Different texts share an index only if there are more than `n` texts. The
+/// result does not depend on the order of `texts`.
 fn spread<'a>(texts: impl Iterator<Item = &'a str>, n: usize) -> BTreeMap<&'a str, usize> {
     let mut given: BTreeMap<&str, usize> = BTreeMap::new();
     for text in texts.collect::<BTreeSet<_>>() {

@@ -1,4 +1,4 @@
-//! Draws scatter plots. Labels avoid the points and each other.
+//! Draws scatter plots.
 
 use plotters::element::{Circle, Polygon, Rectangle};
 use plotters::style::Color;
@@ -20,7 +20,7 @@ struct Dot<'a> {
 }
 
 impl Scatter {
-    /// The legend is empty if every label equals its group.
+    /// The legend is empty if the label of every point equals the group of the point.
     fn names(&self) -> Vec<String> {
         let is_said = self.points.iter().all(|point| point.label == point.group);
         if is_said { vec![] } else { self.groups() }
@@ -32,7 +32,7 @@ impl Scatter {
 
     pub fn draw(&self, whole: &Area) -> DrawResult {
         let area = legend(whole, &self.names(), &colours(&self.groups()))?;
-        // Leave space on the right for a label, and below for the arrows of bounds.
+        // Reserve space on the right side for labels and at the bottom for arrows.
         let x_ends = padded(self.points.iter().map(|point| point.x), [0.1, 0.2]);
         let y_ends = padded(self.points.iter().map(|point| point.y), [0.15, 0.1]);
         let axes = log_log(&area, [&self.x_title, &self.y_title], [x_ends, y_ends])?;
@@ -48,13 +48,13 @@ impl Scatter {
         let is_shown = |dot: &&Dot| dots.len() <= LABELLED || dot.point.is_front;
         let labelled: Vec<&Dot> = dots.iter().filter(is_shown).collect();
         draw_labels(whole, &labelled, &obstacles, [(x.start + 12, y.start), (x.end - 4, y.end - 8)])?;
-        // Draw the points of the front last, on top of all other points.
+        // Points on the Pareto front cover all other points.
         dots.iter().rev().try_for_each(|dot| dot.draw(whole))
     }
 }
 
 impl Dot<'_> {
-    /// The box of the point and its arrow, which labels avoid.
+    /// The box around the point and the arrow.
     fn corners(&self) -> Corners {
         let ((x, y), around) = (self.place, RADIUS + 4);
         let below = if self.point.is_bound { ARROW + 4 } else { around };
@@ -74,7 +74,7 @@ impl Dot<'_> {
     }
 }
 
-/// The Pareto front as a staircase up to the `end` of the axis.
+/// The Pareto front as a staircase. `end` is the right end of the horizontal axis in pixels.
 fn front(dots: &[Dot], end: i32) -> Vec<Place> {
     let mut front: Vec<Place> = dots.iter().filter(|dot| dot.point.is_front).map(|dot| dot.place).collect();
     front.sort_unstable();
@@ -86,7 +86,7 @@ fn draw_labels(area: &Area, dots: &[&Dot], obstacles: &[Corners], frame: Corners
     let widths = dots.iter().map(|dot| (dot.place, width_of(&dot.point.label)));
     let boxes = place(&widths.collect::<Vec<_>>(), TEXT, obstacles, frame);
     for (dot, [min, max]) in dots.iter().zip(&boxes) {
-        // Connect a displaced label to its point.
+        // Draw a line from the point to a distant label.
         let (x, y) = dot.place;
         let end = (x.clamp(min.0, max.0), y.clamp(min.1, max.1));
         if (end.0 - x).abs().max((end.1 - y).abs()) > 36 {
@@ -94,7 +94,7 @@ fn draw_labels(area: &Area, dots: &[&Dot], obstacles: &[Corners], frame: Corners
         }
     }
     for (dot, [min, max]) in dots.iter().zip(boxes) {
-        // Hide lines under a label.
+        // Hide the lines behind a label.
         area.draw(&Rectangle::new([min, max], PAPER.light.filled()))?;
         text(area, &dot.point.label, (min.0, (min.1 + max.1) / 2), dot.colour, HPos::Left)?;
     }
@@ -114,8 +114,8 @@ fn is_inside(a: &Corners, b: &Corners) -> bool {
 
 const LABEL_GAP: i32 = 22;
 
-/// Places the labels of `points`, given as position and label width. Each label takes the first free box inside
-/// `frame`. A label without a free box is right of its point and may cover another label.
+/// The boxes of the labels. `points` has the position of each point and the width of each label. Each label gets the
+/// first free candidate box inside `frame`. If no candidate is free, the label may cover another label.
 pub fn place(points: &[(Place, i32)], height: i32, obstacles: &[Corners], frame: Corners) -> Vec<Corners> {
     let mut taken = obstacles.to_vec();
     for &((x, y), width) in points {

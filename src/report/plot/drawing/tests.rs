@@ -56,7 +56,7 @@ fn long_names_leave_bars_their_room() {
         let of =
             |label: &str| Chart::Bars(Bars::of_products("times", parts.clone(), [(label.to_owned(), bar.clone())]));
         let (short, long) = (of("a"), of("sah-hybrid:test=moller-trumbore,batch=packets,quality=high"));
-        // In a narrow drawing, long names stand above their bars and make the drawing higher.
+        // In a narrow drawing, a long name needs a separate line above the bar.
         assert!(long.size(360.0).1 > short.size(360.0).1);
         assert_eq!(long.size(1600.0), short.size(1600.0));
         assert!(long.svg(360.0).contains("packets"));

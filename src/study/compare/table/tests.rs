@@ -116,7 +116,6 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
     assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
     let expected = "A/A noise (median-kd built twice and compared with itself): 1.00%; 0 of 2";
     assert!(table.notes[0].starts_with(expected), "{:?}", table.notes);
-    // The ratio to the twin varies more between epochs than its mean differs from 1.
     for record in &mut all[..2] {
         let by = [1.02, 0.98, 1.03, 0.98, 1.0];
         let twin = record.samples_ns.iter().zip(by).map(|(ns, by)| ns * by);
@@ -148,7 +147,7 @@ fn a_mean_over_fewer_scenes_names_its_count_and_is_not_ranked() {
     assert_eq!([cell(&table, "sah-kd", "primary"), cell(&table, "sah-bvh", "primary")], ["2.00", "9.00 (2 of 3)"]);
     assert_eq!(cell(&table, "sah-bvh", "all x median"), "9.00 (2 of 3)");
     assert!(table.title.contains("3 scenes") && table.notes[0].ends_with(": 1 because of wrong hits."), "{table:?}");
-    // A refused structure has no measurement on the scene.
+    // A missing measurement counts as a refusal.
     let mut fewer = all.clone();
     fewer.retain(|r| (&r.scene[..], &r.label[..]) != ("A", "sah-kd"));
     let note = mean_table(&fewer).notes.swap_remove(0);

@@ -1,7 +1,7 @@
-//! Accessors of a glTF file: lists of vectors, matrices and indices in its buffers.
+//! Accessors of a glTF file. An accessor is a list of vectors, matrices or indices in a buffer.
 //!
-//! The iterators of the crate `gltf` panic or misread an accessor that does not fit its type or its buffer. This module
-//! checks every accessor first.
+//! The iterators of the crate `gltf` may panic or return wrong data for an invalid accessor. `Accessors::new` therefore
+//! checks every accessor.
 
 use std::array;
 use std::iter::repeat_with;
@@ -13,7 +13,7 @@ use gltf::{Accessor, Document};
 use super::buffers::Bytes;
 use crate::scene::load::error::Fault;
 
-/// The elements of all accessors lie within their buffer views and buffers.
+/// Every accessor has passed `check`.
 #[derive(Clone, Copy)]
 pub(super) struct Accessors<'a> {
     document: &'a Document,
@@ -22,7 +22,7 @@ pub(super) struct Accessors<'a> {
 
 pub(super) type Elements<'a, T> = Result<Box<dyn Iterator<Item = T> + 'a>, Fault>;
 
-/// The items of the crate have at most four components, but a matrix has sixteen.
+/// The crate `gltf` has no [`Item`] for the sixteen components of a matrix.
 struct Vector<T, const N: usize>([T; N]);
 
 impl<T: Item, const N: usize> Item for Vector<T, N> {
@@ -71,12 +71,12 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// Divides normalised elements by `one`. `one` is 1 for types that cannot be normalised.
+    /// Divides the components of a normalised accessor by `one`. Pass 1.0 for a type that cannot be normalised.
     fn scaled<T: Item + Into<f64> + 'a, const N: usize>(self, from: Accessor<'a>, one: f64) -> Elements<'a, [f64; N]> {
         let (count, is_scaled) = (from.count(), from.normalized() && one != 1.0);
         let scaled = move |c: f64| if is_scaled { f64::from((c / one) as f32).max(-1.0) } else { c };
         let components = move |Vector(components): Vector<T, N>| components.map(|c| scaled(c.into()));
-        // The crate panics at an empty accessor, and returns `None` for an accessor without data, which means zeros.
+        // `Iter::new` panics for an empty accessor. The elements of an accessor without data are zeros.
         let bytes = move |buffer: Buffer<'a>| Some(&self.buffers[buffer.index()][..]);
         match (count > 0).then(|| Iter::new(from, bytes)).flatten() {
             Some(elements) => Ok(Box::new(elements.map(components))),
@@ -84,7 +84,7 @@ impl<'a> Accessors<'a> {
         }
     }
 
-    /// Sparse indices must ascend, because the crate skips all other sparse elements.
+    /// Rejects sparse indices that do not ascend, because the crate `gltf` would skip sparse elements.
     fn check(self, accessor: &Accessor<'a>) -> Result<(), Fault> {
         let fault = |problem| fault(accessor.index(), problem);
         let bytes = |view, offset, count, size| self.bytes(&view, offset, count, size).map_err(fault);
@@ -114,7 +114,7 @@ impl<'a> Accessors<'a> {
         Ok(())
     }
 
-    /// Returns the bytes of the elements and the stride. `count` must be at least 1.
+    /// Returns a slice and the stride in bytes. The slice contains all elements. `count` must be at least 1.
     fn bytes(self, view: &View<'a>, offset: usize, count: usize, size: usize) -> Result<(&'a [u8], usize), String> {
         let number = view.index();
         let stride = view.stride().unwrap_or(size);

@@ -10,7 +10,7 @@ use percent_encoding::percent_decode_str;
 use crate::scene::load::error::{Fault, quoted};
 use crate::scene::load::files::{named_below, read_start};
 
-/// The bytes of a buffer. Buffers with the same file share the bytes.
+/// The bytes of a buffer. Buffers with the same path share one `Rc`.
 pub(super) type Bytes = Rc<Vec<u8>>;
 
 pub(super) fn size(buffers: &[Bytes]) -> usize {

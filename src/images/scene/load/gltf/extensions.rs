@@ -7,7 +7,7 @@ use crate::scene::load::notes::Notes;
 
 const READ: [&str; 2] = ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"];
 
-/// The beginnings of the names of extensions that change no triangle.
+/// Extensions whose names begin with these prefixes change no triangle.
 const SHADING: &str = "ADOBE_materials_ EXT_lights_ EXT_materials_ EXT_mesh_features EXT_structural_metadata EXT_texture_ \
     FB_ngon_encoding KHR_animation_ KHR_lights_ KHR_materials_ KHR_texture_ KHR_xmp MSFT_packing_ MSFT_texture_";
 

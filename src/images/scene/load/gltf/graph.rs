@@ -8,8 +8,9 @@ use crate::scene::load::error::Fault;
 
 const DEEPEST: usize = 1024;
 
-/// The shown nodes, parents first, and the transforms of all nodes to world space. Without a default scene, all nodes
-/// are shown.
+/// Returns the shown nodes, and the transforms of all nodes to world space.
+///
+/// The shown nodes are the nodes of the default scene. If the file has no default scene, all nodes are shown.
 pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), Fault> {
     let fault = |node: usize, problem: String| Err(Fault::part(format!("node {node}"), problem));
     let nodes: Vec<Node> = document.nodes().collect();
@@ -29,7 +30,7 @@ pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), F
         None => file_roots.clone().collect(),
     };
 
-    // The last entry of `waiting` is visited first: the shown nodes precede the hidden nodes.
+    // `waiting` is a stack. The shown roots lie on top, to be visited before the hidden roots.
     let entry = |node, is_shown| (node, DMat4::IDENTITY, 1, is_shown);
     let mut waiting: Vec<_> = file_roots.map(|root| entry(root, false)).collect();
     waiting.extend(roots.into_iter().rev().map(|root| entry(root, true)));

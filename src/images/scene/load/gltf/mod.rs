@@ -1,4 +1,4 @@
-//! glTF 2.0, as text with separate buffers or as one binary file.
+//! Reads glTF 2.0 files, text or binary.
 
 mod accessors;
 mod buffers;
@@ -22,11 +22,9 @@ use self::shape::Shape;
 use super::error::Fault;
 use crate::scene::{Material, Model};
 
-/// The numbers of triangles and vertices are limited to the bytes of the files plus this number.
 const EXTRA_ELEMENTS: usize = 1 << 24;
 
-/// Transforms are multiplied in `f64`, and vertices are rounded to `f32` once. Triangles of mirrored nodes are
-/// reversed, which keeps their front side.
+/// Vertices are transformed in `f64` and rounded to `f32` once.
 pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     let (text::Document { mut root, instances, textured, mut notes }, chunk) = text::parse(&bytes)?;
     let size = bytes.len();
@@ -72,7 +70,7 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
         model.normal_indices = Vec::new();
     }
     let used: HashSet<u32> = model.material_of.iter().copied().collect();
-    // The material of parts without a material has the index after the last material.
+    // A part without a material has the material index `model.materials.len()`.
     if used.contains(&(model.materials.len() as u32)) {
         model.materials.push(Material::named("default"));
     }
@@ -93,9 +91,9 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
     Ok(model)
 }
 
-/// This check must precede the expansion, because a small file can show a large mesh many times.
+/// Rejects a model with too many elements. A small file can show a large mesh many times. Call `reserve` before `add`.
 ///
-/// `sizes` are the numbers of vertices, normals and triangles, and the sum of parts and instances.
+/// `sizes` are the counts of vertices, normals, triangles and other elements.
 fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fault> {
     let [vertices, normals, triangles, others] = sizes;
     let most = bytes.saturating_add(EXTRA_ELEMENTS).min(u32::MAX as usize - 1);
@@ -148,15 +146,15 @@ fn add(
     Ok(())
 }
 
-/// The cofactor matrix times the sign of the determinant is a positive multiple of the inverse transpose. The cofactor
-/// matrix also exists for singular transforms.
+/// Returns a positive multiple of the inverse transpose of `linear`. The function uses the cofactor matrix,
+/// because a singular `linear` has no inverse.
 fn to_normal(linear: DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = linear;
     let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
     DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
 
-/// The base colour becomes the diffuse colour. The renderer has no metals and no roughness.
+/// The base colour becomes the diffuse colour.
 fn material((number, read): (usize, gltf::Material)) -> Material {
     let name = read.name().map_or_else(|| format!("material {number}"), str::to_owned);
     let [r, g, b, _] = read.pbr_metallic_roughness().base_color_factor();

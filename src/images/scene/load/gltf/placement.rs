@@ -9,7 +9,6 @@ use gltf::{Mesh, Node};
 use super::accessors::{Accessors, Elements, fault};
 use crate::scene::load::error::Fault;
 
-/// The first joint of a skin places the mesh instead of the node. In the bind pose, all joints have the same effect.
 pub(super) struct Placement<'a> {
     pub node: Node<'a>,
     pub mesh: Mesh<'a>,
@@ -30,6 +29,7 @@ impl<'a> Placement<'a> {
         Ok(copies.unwrap_or(1))
     }
 
+    /// If the node has a skin, the first joint of the skin places the mesh.
     pub fn transforms(&self, worlds: &[DMat4], accessors: Accessors<'a>) -> Elements<'a, DMat4> {
         let mut world = worlds[self.node.index()];
         if let Some(skin) = self.node.skin()
@@ -64,7 +64,7 @@ pub(super) fn local(node: &Node) -> DMat4 {
 }
 
 fn decomposed(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> DMat4 {
-    // A unit quaternion in `f32` does not have unit length in `f64`.
+    // Normalize the rotation, because rotations in files are rounded.
     let rotation = DQuat::from_array(rotation);
     let length = rotation.length();
     let rotation = if length > 0.0 && length.is_finite() { rotation / length } else { DQuat::IDENTITY };

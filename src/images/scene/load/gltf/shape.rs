@@ -9,13 +9,12 @@ use indexmap::IndexSet;
 use super::accessors::Accessors;
 use crate::scene::load::error::Fault;
 
-/// The accessors are counted, but not yet read. Primitives often share accessors.
 #[derive(Default)]
 pub(super) struct Shape<'a> {
     pub positions: IndexSet<usize>,
     pub normals: IndexSet<usize>,
     pub parts: Vec<Part<'a>>,
-    /// The numbers of vertices, normals, triangles and primitives.
+    /// The counts of vertices, normals, triangles and primitives.
     pub sizes: [Saturating<usize>; 4],
     pub left_out: usize,
 }
@@ -59,7 +58,7 @@ impl<'a> Shape<'a> {
         }
 
         self.sizes[2] += if is_list { corners / 3 } else { corners.saturating_sub(2) };
-        // Primitives are counted too, because reading a primitive takes time even without triangles.
+        // Count the primitive, because even a primitive without triangles takes time to read.
         self.sizes[3] += 1;
         let mut add = |accessor, kind: usize| {
             let list = if kind == 0 { &mut self.positions } else { &mut self.normals };

@@ -1,7 +1,7 @@
 //! Parses the JSON of a glTF document.
 //!
-//! The crate `gltf` rejects valid files because of parts that this loader does not read, and misreads some invalid
-//! files. This module therefore removes the unused parts before the crate parses the document.
+//! The crate `gltf` rejects some valid files because of parts that the loader does not use. This module removes unused
+//! parts before the crate `gltf` parses the document.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -18,25 +18,25 @@ use crate::scene::load::error::{Fault, quoted};
 use crate::scene::load::notes::Notes;
 use crate::scene::load::text::{is_among, without_byte_order_mark};
 
-/// The most objects in a small document. An object may be as short as `{}`, but takes hundreds of bytes of memory.
+/// Even a small document may have this number of objects. An empty object takes hundreds of bytes of memory.
 const MOST_OBJECTS: usize = 1 << 16;
 
-/// The number of bytes of the file that allow one more object.
+/// A document may have one more object for each `BYTES_AN_OBJECT` bytes of the file.
 const BYTES_AN_OBJECT: usize = 48;
 
-/// The most entries of lists and objects, per object.
+/// `check_size` permits this number of list and object entries for each permitted object.
 const ENTRIES_AN_OBJECT: usize = 12;
 
-/// `prune` removes all other keys.
+/// The keys that `prune` keeps.
 const KEYS: &str = "attributes baseColorFactor buffer bufferView byteLength byteOffset byteStride children componentType \
     count indices inverseBindMatrices joints material matrix mesh mode name nodes normalized pbrMetallicRoughness \
     primitives rotation scale skin sparse targets translation type uri values NORMAL POSITION";
 
-/// The keys of numbers that may be 2^32 or more. The crate would truncate larger indices.
+/// The keys of numbers that may be 2^32 or more.
 const LARGE: &str = "baseColorFactor byteLength byteOffset count matrix rotation scale translation";
 
 pub(super) struct Document {
-    /// All indices are in range. The accessors are not yet checked against the buffers.
+    /// All references between objects are valid. The accessors are not checked against the buffers.
     pub root: Root,
     /// For each node, the accessors of the translations, rotations and scales of instances.
     pub instances: Vec<[Option<usize>; 3]>,
@@ -54,7 +54,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     }
     let broken = |error: serde_json::Error| no_gltf(&error.to_string());
     let members: Members = serde_json::from_slice(text).map_err(broken)?;
-    // Check the version and the extensions first: an unsupported version causes other errors.
+    // Check the version first, because an unsupported version also causes later errors.
     check_version(&value(&members, "asset")?)?;
     let mut notes = Notes::default();
     let [required, used] = ["extensionsRequired", "extensionsUsed"].map(|key| value(&members, key));
@@ -69,7 +69,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
         instances.push(extensions::instances(&node));
         nodes.push(typed(&place, node)?);
     }
-    // The crate requires the list of nodes, which is optional in the format.
+    // The crate `gltf` requires the list of nodes of a scene.
     let mut scenes = value(&members, "scenes")?;
     for scene in scenes.as_array_mut().into_iter().flatten().filter_map(Value::as_object_mut) {
         scene.entry("nodes").or_insert_with(|| json!([]));
@@ -90,7 +90,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     };
     for (m, mesh) in root.meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
-            // The crate panics at an accessor of positions that is out of bounds.
+            // `Root::validate` panics on positions whose accessor does not exist.
             if let Some(index) = primitive.attributes.values().find(|index| index.value() >= root.accessors.len()) {
                 let problem = format!("index {index} is out of bounds: export the file again");
                 return Err(Fault::part(format!("meshes[{m}].primitives[{p}].attributes"), problem));
@@ -101,7 +101,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Document, Option<Range<usize>>), Fa
     Ok((Document { root, instances, textured, notes }, chunk))
 }
 
-/// The members stay text, because parsed values take twenty times as much memory.
+/// The members stay text, because a parsed value takes more memory.
 type Members<'a> = HashMap<Cow<'a, str>, &'a RawValue>;
 
 fn value(members: &Members, key: &str) -> Result<Value, Fault> {
@@ -122,8 +122,8 @@ fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault>
     })
 }
 
-/// Indices of 2^32 or more become `u32::MAX`, which is out of bounds. Nested lists are errors, because serde would read
-/// a list as an object.
+/// Indices of 2^32 or more become `u32::MAX`, which is out of bounds. A nested list is an error, because serde would
+/// read the inner list as an object.
 fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
     match value {
         Value::Object(members) => {
@@ -143,7 +143,7 @@ fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
 fn validate(root: &Root) -> Result<(), Fault> {
     let mut fault = None;
     root.validate(root, Path::new, &mut |path, error| {
-        // A missing key is optional or not read. `Accessors` checks strides.
+        // The loader needs no key that `Root::validate` reports as missing. `Accessors` checks strides.
         if fault.is_none() && error != Error::Missing && !path().as_str().ends_with("byteStride") {
             let problem = format!("{}: export the file again", error.to_string().to_lowercase());
             fault = Some(Fault::part(path().0, problem));
@@ -175,7 +175,7 @@ fn no_gltf(problem: &str) -> Fault {
     Fault::file(format!("it is not a glTF 2.0 file: {problem}"))
 }
 
-/// The format requires readers to ignore further chunks.
+/// The format requires readers to ignore chunks of unknown types.
 fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<Range<usize>>), Fault> {
     let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let length = match (word(4), word(8)) {
@@ -197,7 +197,7 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<Range<usize>>), Fault> {
     Ok((&bytes[text], binary))
 }
 
-/// Characters in strings count as well.
+/// Braces, brackets and commas count even within strings.
 fn check_size(text: &[u8], bytes: usize) -> Result<(), Fault> {
     let count = |bytes: &[u8]| text.iter().filter(|byte| bytes.contains(byte)).count();
     let (objects, entries) = (count(b"{"), count(b",["));

@@ -1,7 +1,6 @@
-//! Passes the statements of an OBJ file to tobj, and keeps data that tobj drops.
+//! Passes the statements of an OBJ file to tobj.
 //!
-//! tobj receives one statement at a time, to locate errors. The text is read twice, because faces may refer to later
-//! vertices. Comments about tobj explain a guard. A test fails without the guard.
+//! The filter keeps data that tobj drops. The text is read twice, because faces may refer to later vertices.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -22,8 +21,7 @@ const SKIPPED: &str = "vt vp g o s cstype deg bmat step parm trim hole scrv sp e
 /// A face with more corners is probably a mistake.
 const MOST_CORNERS: usize = 1 << 20;
 
-/// Until a model ends, tobj uses up to thirty times the memory of the text. A model therefore ends after this number of
-/// corners. [`Vectors`] merges the vertices of several models.
+/// The filter begins a new tobj model after this number of corners. A larger model takes more temporary memory in tobj.
 const CORNERS_IN_MODEL: usize = 1 << 16;
 
 #[derive(Clone, Copy)]
@@ -50,9 +48,9 @@ pub(super) struct Contents {
     /// Names in the order of first use. tobj drops names that no library defines.
     pub materials: IndexSet<Vec<u8>>,
     material: u32,
-    /// The name after the last `usemtl`, until a face uses the name.
+    /// The material name for the next face. `None` if the material does not change.
     next_material: Option<Vec<u8>>,
-    /// Corners of the current face: vertex and normal, counted from 1. A missing normal is 0.
+    /// The vertex index and normal index of each corner of a face. Indices count from 1. A missing normal is 0.
     corners: Vec<[u32; 2]>,
     models: u32,
     corners_in_model: usize,
@@ -61,14 +59,14 @@ pub(super) struct Contents {
     shapes: usize,
     unknown: usize,
     first_unknown: Option<(usize, String)>,
-    /// The bytes of a statement that tobj has not yet read.
+    /// Bytes that tobj has not yet read.
     to_tobj: VecDeque<u8>,
 }
 
 pub(super) struct Filter<'a> {
     statements: Box<dyn Iterator<Item = (Reading, usize, Cow<'a, [u8]>)> + 'a>,
     pub contents: Contents,
-    /// The fault of a statement. tobj finds no faults, because the filter rejects faulty statements.
+    /// The fault of the rejected statement.
     pub fault: Option<Fault>,
 }
 
@@ -96,7 +94,7 @@ impl Read for Filter<'_> {
 }
 
 impl Contents {
-    /// Returns an error if there are no triangles, because tobj reports no error for files of other formats.
+    /// Returns an error if there are no triangles.
     pub fn check(&self, notes: &mut Notes) -> Result<(), Fault> {
         notes.count(self.small_faces, "face", SMALL);
         notes.count(self.shapes, "statement", "of points, lines, curves or surfaces: ignored");
@@ -127,7 +125,7 @@ impl Contents {
             (_, b"f") => self.face(words)?,
             (_, b"usemtl") => self.next_material = Some(name(statement).to_vec()),
             (_, b"mtllib") => drop(self.libraries.insert(name(statement).to_vec())),
-            // tobj makes a face of a line with three or more vertices.
+            // tobj would read a statement `l` with three or more vertices as a face.
             _ if is_among(SHAPES, keyword) => self.shapes += 1,
             _ if is_among(SKIPPED, keyword) => {}
             _ => {
@@ -138,8 +136,7 @@ impl Contents {
         Ok(())
     }
 
-    /// Returns `None` if there are fewer than three numbers. tobj also splits words at non-ASCII white space, and
-    /// accepts nan, inf and 1e999 as coordinates.
+    /// Returns `None` unless there are three valid numbers. tobj would accept nan, inf and 1e999 as coordinates.
     fn vector<'w>(&mut self, keyword: &[u8], mut words: impl Iterator<Item = &'w [u8]>) -> Option<()> {
         let is_vertex = keyword == b"v";
         let vectors = if is_vertex { &mut self.vertices } else { &mut self.normals };
@@ -152,7 +149,7 @@ impl Contents {
             self.to_tobj.extend(word);
         }
         self.to_tobj.push_back(b'\n');
-        // tobj divides by a fourth number. Further numbers are colours, which tobj requires for every vertex or none.
+        // The fourth of exactly four numbers is a weight. tobj would divide the coordinates by the weight.
         if is_vertex && let (Some(weight), None) = (words.next(), words.next()) {
             self.weighted += usize::from(number::<f32>(weight) != Some(1.0));
         }
@@ -189,7 +186,7 @@ impl Contents {
         self.corners_in_model += self.corners.len();
         self.to_tobj.push_back(b'f');
         for &[vertex, normal] in &self.corners {
-            // tobj gives a corner without a normal the normal of another corner. Use normal 1 instead.
+            // Replace a missing normal, because tobj would take the normal of another corner.
             let normal = normal.max(1);
             self.vertices.add_use(vertex, self.models);
             self.normals.add_use(normal, self.models);
@@ -199,8 +196,8 @@ impl Contents {
         Ok(())
     }
 
-    /// tobj resolves relative and forward indices among the vectors read so far. tobj panics on normals such as -4 of
-    /// three and 6148914691236517206, and reads index 0 as a missing normal.
+    /// Returns absolute indices, because tobj receives all vectors before the first face. tobj panics on some invalid
+    /// indices of normals.
     fn corner(&self, word: &[u8]) -> Result<[u32; 2], String> {
         let mut parts = word.split(|&b| b == b'/');
         let vertex = self.vertices.index(parts.next().unwrap_or_default(), "vertex")?;

@@ -1,6 +1,6 @@
-//! Reads Wavefront OBJ with the crate `tobj`, behind a filter.
+//! Reads Wavefront OBJ with the crate `tobj`.
 //!
-//! Vertices and normals keep the order of the file. tobj does not return unused vertices and normals.
+//! Vertices and normals keep the order of the file. Unused vertices and normals are dropped.
 
 mod filter;
 mod vectors;
@@ -22,7 +22,7 @@ use crate::scene::polygon::Splitter;
 
 /// `folder` contains the MTL files. A face is flat unless all its corners have normals.
 pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Model, Fault> {
-    // tobj reads a byte order mark as a part of the first keyword, and finds no statements in UTF-16.
+    // tobj would read a byte order mark as a part of the first keyword.
     let mut filter = BufReader::new(Filter::new(without_byte_order_mark(bytes)?));
     let read = load_obj_buf(&mut filter, &LoadOptions::default(), |_| Ok(Default::default()));
     let Filter { mut contents, fault, .. } = filter.into_inner();
@@ -57,7 +57,7 @@ fn triangles(parts: Vec<tobj::Model>, contents: &mut Contents, notes: &mut Notes
     let (mut vertices, mut normals) = (&vertices[..], &normal_numbers[..]);
     let mut sections = contents.sections.iter().flat_map(|section| repeat_n(section, section.faces));
     for mesh in parts.into_iter().map(|part| part.mesh) {
-        // tobj returns no sizes if all faces are triangles.
+        // `face_arities` is empty if all faces are triangles.
         let (mut sizes, mut start) = (mesh.face_arities.iter(), 0);
         while start < mesh.indices.len() {
             let size = sizes.next().map_or(3, |&size| size as usize);

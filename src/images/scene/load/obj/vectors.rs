@@ -7,20 +7,22 @@ use glam::Vec3;
 use crate::scene::load::error::quoted;
 use crate::scene::load::text::number;
 
-/// tobj numbers the vectors of each model again, in the order of first use. tobj does not return the numbers in the
-/// file. This type records the order, to merge the copies of a vector in several models.
+/// The vertices or normals of an OBJ file.
+///
+/// tobj returns the vectors of each model in the order of first use. `in_file_order` restores the order of the file.
+/// `in_file_order` also merges the copies of a vector in several models.
 #[derive(Default)]
 pub(super) struct Vectors {
-    /// The last model that uses each vector, counted from 1. 0 if no model does.
+    /// For each vector, the latest model that uses the vector. The first model is 1. 0 marks an unused vector.
     pub last_model: Vec<u32>,
-    /// The vectors of all models in the order of first use, counted from 0.
+    /// Zero-based vector indices in the order in which tobj returns the vectors.
     order: Vec<u32>,
-    /// The vectors before the current statement, in the second reading.
+    /// The number of vectors before the current statement.
     pub so_far: usize,
 }
 
 impl Vectors {
-    /// `index` counts from 1. The vector need not exist.
+    /// `index` is one-based. The vector need not exist.
     pub fn add_use(&mut self, index: u32, model: u32) {
         if let Some(last) = self.last_model.get_mut(index as usize - 1)
             && mem::replace(last, model) != model
@@ -29,7 +31,7 @@ impl Vectors {
         }
     }
 
-    /// Negative indices count backwards from -1. The result counts from 1.
+    /// The index -1 names the last vector before the current statement. The result is one-based.
     pub fn index(&self, word: &[u8], what: &str) -> Result<u32, String> {
         let (count, so_far) = (self.last_model.len(), self.so_far);
         let index: i64 = number(word).ok_or_else(|| format!("{} is not a {what} index", quoted(word)))?;
@@ -46,7 +48,8 @@ impl Vectors {
         }
     }
 
-    /// Returns the used vectors in the order of the file, and the number of each element of `found`.
+    /// Returns the used vectors in the order of the file. The second list maps each element of `found` to its index in
+    /// the first list.
     pub fn in_file_order<'a>(mut self, found: impl Iterator<Item = &'a [f32]>) -> (Vec<Vec3>, Vec<u32>) {
         let mut numbers = self.last_model;
         let mut count = 0;

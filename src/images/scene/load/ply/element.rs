@@ -1,4 +1,4 @@
-//! The elements that the header of a PLY file declares, and their rows.
+//! Reads the header of a PLY file and the rows of its elements.
 
 use std::collections::HashSet;
 
@@ -8,13 +8,13 @@ use crate::scene::load::text::{lines, without_byte_order_mark};
 
 pub(super) const STRIPS: &str = "tristrips";
 
-/// The properties of a vertex that are read.
+/// The vertex properties that the loader reads.
 pub(super) const VERTEX_PROPERTIES: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
 
 /// Files use one of these names for the corners of a face or strip.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// The most bytes of a header, and the most entries of a list.
+/// The limit for the bytes of a header and for the entries of a list.
 const LONGEST: usize = 1 << 20;
 
 #[derive(Default)]
@@ -32,7 +32,7 @@ impl Header {
         if !bytes.starts_with(b"ply") {
             return Err(Fault::line(1, "a PLY file begins with the line `ply`: this is another format"));
         }
-        // The line `ply` determines the line end, because the first byte of the rows may equal `\n`.
+        // The first line determines the line end of the header.
         let line_end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
         let (mut header, mut number, mut read) = (Self::default(), 1, 0);
         let text = &bytes[..bytes.len().min(LONGEST)];
@@ -82,7 +82,7 @@ impl Header {
                     let types = "a coordinate is a number, corners are a list of integers, a length is an integer";
                     return Err(format!("{} has the wrong type: {types}", quoted(line)));
                 }
-                // In text a length may exceed the width of its type.
+                // In a text file, a list length may exceed the range of the declared length type.
                 let length = if element.encoding == 0 && length.is_some() { Some(named("double")?) } else { length };
                 element.properties.push(Property { column, length, kind });
                 format!("{} {name}", element.name)
@@ -103,13 +103,13 @@ pub(super) struct Element {
 }
 
 pub(super) struct Property {
-    /// The column of the numbers. `None` skips the property.
+    /// Index into `VERTEX_PROPERTIES` or `CORNERS`. `None` if the loader skips the property.
     pub column: Option<usize>,
     pub length: Option<Kind>,
     pub kind: Kind,
 }
 
-/// A number and its column, or the end of a row.
+/// A column and a number. `None` at the end of a row.
 pub(super) type Next = Option<(usize, f64)>;
 
 impl Element {
@@ -133,7 +133,7 @@ impl Element {
     }
 
     fn row(&self, rows: &mut &[u8], take: &mut impl FnMut(Next) -> Result<(), String>) -> Result<(), String> {
-        // A file may be a single strip.
+        // A single strip may contain the whole mesh.
         let longest = if self.name == STRIPS { rows.len() } else { LONGEST };
         for property in &self.properties {
             let length = property.length.map_or(Ok(1.0), |kind| (kind.readers[self.encoding])(rows))?;

@@ -11,7 +11,7 @@ use super::notes::{Notes, SMALL};
 use crate::scene::polygon::Splitter;
 use crate::scene::{Material, Model};
 
-/// Faces are read twice. The first pass only checks them, because a rejected file must take little memory.
+/// Faces are read twice. The first pass stores no faces, because a rejected file must take little memory.
 pub(super) fn read(bytes: &[u8]) -> Result<Model, Fault> {
     let (elements, mut rows) = Header::read(bytes)?;
     let vertex = elements.iter().find(|element| element.name == "vertex");
@@ -103,7 +103,7 @@ fn polygons(element: &Element, rows: &mut &[u8], vertices: usize, mut take: impl
                 corners.push(corner as u32);
                 if is_strip && corners.len() == 3 {
                     take(&corners);
-                    // The next triangle shares the last edge, with the ends in reverse order.
+                    // The next triangle shares an edge with this triangle, in the opposite direction.
                     corners.swap_remove(triangles % 2);
                     triangles += 1;
                 }

@@ -23,7 +23,7 @@ fn data() -> Vec<u8> {
     bytes
 }
 
-/// The square at one node. The data are in `a.bin`.
+/// A document that places the square from `data` at one node. The file `a.bin` contains the bytes of `data`.
 fn document() -> Value {
     let view = |offset, length| json!({"buffer": 0, "byteOffset": offset, "byteLength": length});
     let accessor = |view, component, kind, count| json!({"bufferView": view, "componentType": component, "type": kind, "count": count, "min": [0, 0, 0], "max": [1, 1, 0]});
@@ -160,7 +160,7 @@ fn transforms_accumulate_and_mirrors_turn_the_winding() {
 
 #[test]
 fn normals_go_by_the_inverse_transpose() {
-    // Tilt the square to the plane z = x, then stretch it along x. The normal (-1, 0, 1) becomes (-1, 0, 4).
+    // The tilt moves the square to the plane z = x. The stretch along x turns the normal (-1, 0, 1) to (-1, 0, 4).
     let tilt = json!({"mesh": 0, "matrix": [1, 0, 1, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1]});
     let stretch = json!({"children": [0], "scale": [4, 1, 1]});
     for mirror in [1.0, -1.0] {
@@ -202,7 +202,7 @@ fn without_a_default_scene_all_roots_are_shown() {
 #[test]
 fn sparse_accessors_with_and_without_a_base() {
     let sparse = |indices: Value| json!({"count": 2, "indices": {"bufferView": 2, "byteOffset": indices, "componentType": 5121}, "values": {"bufferView": 0, "byteOffset": 24}});
-    // Elements 0 and 1 become the third and fourth corner.
+    // Elements 0 and 1 receive the coordinates of corners 2 and 3.
     let model = gltf(&[("/accessors/0/sparse", sparse(0.into()))]);
     assert_eq!(model.positions[..3], [Vec3::new(1.0, 1.0, 0.0), Vec3::Y, Vec3::new(1.0, 1.0, 0.0)]);
     let bare = json!({"componentType": 5126, "type": "VEC3", "count": 4, "sparse": sparse(1.into())});

@@ -25,7 +25,7 @@ fn assert_refused(name: &str, bytes: &[u8], words: &[&str]) {
     assert_error(load_files(&[(name, bytes)]), name, words);
 }
 
-/// Searches `words` from the file name on, because the folder of the file is random.
+/// Skips the folder in the message, because the folder is random.
 fn assert_error(result: Result<Model, LoadError>, name: &str, words: &[&str]) {
     let message = result.expect_err(&format!("{words:?}")).to_string();
     assert!(!message.contains('\n'), "{message:?}");
@@ -37,7 +37,7 @@ fn corners(model: &Model) -> Vec<[Vec3; 3]> {
     model.triangles.iter().map(|t| t.map(|i| model.positions[i as usize])).collect()
 }
 
-/// The normals follow the winding and are not normalised.
+/// The normals are not normalised.
 fn face_normals(model: &Model) -> Vec<Vec3> {
     corners(model).iter().map(|[a, b, c]| (b - a).cross(c - a)).collect()
 }

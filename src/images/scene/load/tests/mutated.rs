@@ -1,4 +1,4 @@
-//! Damaged files must give a model or an error of one line.
+//! Tests that damaged files load or fail with a one-line error.
 
 use std::time::{Duration, Instant};
 
@@ -27,7 +27,6 @@ fn patch() -> impl Strategy<Value = Vec<u8>> {
     ]
 }
 
-/// A change of bytes, or of pieces. A piece is a word with the separator after it.
 #[derive(Clone, Debug)]
 enum Damage {
     Cut(Index),
@@ -54,7 +53,6 @@ fn damaged(file: &[u8], damages: &[Damage]) -> Vec<u8> {
     let mut file = file.to_vec();
     for damage in damages {
         let pieces: Vec<&[u8]> = file.split_inclusive(|byte| b" \n,:/{}[]".contains(byte)).collect();
-        // The range covers few pieces: most of the file stays.
         let range = |[start, length]: &[Index; 2]| {
             let start = start.index(pieces.len() + 1);
             start..(start + 1 + length.index(8)).min(pieces.len()).max(start)
@@ -102,7 +100,7 @@ fn assert_whole(files: &[(&str, &[u8])]) {
     }
 }
 
-/// The test loads the first file.
+/// The first file is the file to load.
 type Files = Vec<(&'static str, Vec<u8>)>;
 
 fn assert_damaged_files_are_safe(cases: u32) {

@@ -22,7 +22,7 @@ const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\n";
 fn polygons_are_fans_and_vertices_keep_their_order() {
     let model = obj(&format!("{SQUARE}g a\nf 1 2 3 4\ng b\nl 1 2\np 3\nf 4 3 2\nf 1 2\n"));
     assert_eq!(model.triangles, [[0, 1, 2], [0, 2, 3], [3, 2, 1]]);
-    // The vertex without a face is left out.
+    // The model omits the unused vertex.
     assert_eq!(model.positions, [Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]);
     assert!(model.normals.is_empty() && model.normal_indices.is_empty() && model.material_of.is_empty());
     assert_eq!(model.materials, [Material::named("default")]);
@@ -36,7 +36,7 @@ fn indices_may_be_negative_forward_and_continued() {
     assert_eq!(obj(&format!("{SQUARE}f -5 -4 -3\n")).triangles, [[0, 1, 2]]);
     assert_eq!(obj(&format!("f 1 2 3 # first\r\n{SQUARE}")).triangles, [[0, 1, 2]]);
     assert_eq!(obj(&format!("{SQUARE}f 1 2 \\\n3 4 \\")).triangles, [[0, 1, 2], [0, 2, 3]]);
-    // A negative index counts the vertices so far, not all vertices of the file.
+    // A negative index counts back from the last vertex before the face.
     assert_eq!(obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\nv 5 5 5\n").triangles, [[0, 1, 2]]);
 }
 
@@ -87,7 +87,7 @@ fn a_library_is_read_once_and_notes_are_few() {
     let model = with_library(triangle, twice);
     assert_eq!(model.materials, [Material { diffuse: Vec3::Y, ..Material::named("a") }]);
     assert!(model.notes.is_empty(), "{:?}", model.notes);
-    // The limit of notes does not remove the note about textures.
+    // The note about textures is exempt from the limit on the number of notes.
     let textured = format!("newmtl a\n{}map_Kd a.png\n", lines(20, "Kd #x\n"));
     let notes = with_library(triangle, textured.as_bytes()).notes;
     assert!(notes.iter().any(|note| note.starts_with("1 material with a texture")), "{notes:?}");
@@ -155,12 +155,10 @@ fn malformed_files_are_refused_with_their_line() {
     assert!(load_files(&[("a.obj", b"# caf\xe9\nv 0 0 0\nusemtl \xe9\nf 1 1 1\n")]).is_ok());
 }
 
-/// Without the filter, tobj would misread, reject or panic on each of these files.
 #[test]
 fn what_tobj_misreads_is_read() {
     let plain = obj(&format!("{SQUARE}f 1 2 3\n"));
     for statement in [
-        // A fourth number is not a divisor, and further numbers are not colours.
         "v 1 1 0 1",
         "v 1 1 0 0.5 0.5 0.5",
         "v 1 1 0 0.5 0.5 0.5 1",
@@ -182,7 +180,7 @@ fn what_tobj_misreads_is_read() {
     assert_eq!(model.positions[..2], [Vec3::X * 2.0, Vec3::Y * 2.0]);
     assert_eq!(model.notes[0], "3 weights w other than 1 in statements `v`: ignored");
 
-    // tobj panics on these normals.
+    // tobj panics on these normal indices.
     for (normal, words) in [
         ("-4", "normal index -4 precedes the first of the 3"),
         ("6148914691236517206", "normal 6148914691236517206 exceeds the limit of a mesh"),
@@ -191,7 +189,7 @@ fn what_tobj_misreads_is_read() {
         let text = format!("{SQUARE}{}f 1//1 2//{normal} 3//1\n", "vn 0 0 1\n".repeat(3));
         assert_refused("a.obj", text.as_bytes(), &["line 9:", words]);
     }
-    // tobj splits these words differently.
+    // tobj treats U+00A0 and U+000B as white space.
     for text in ["v 1 2\u{a0}3 4\n", "v \u{a0} \u{a0} \u{a0}\n", "v 1 2\u{b}3 4\n"] {
         assert_refused("a.obj", text.as_bytes(), &["line 1:", "three finite numbers are needed"]);
     }
@@ -200,7 +198,6 @@ fn what_tobj_misreads_is_read() {
     assert_refused("a.obj", face((1 << 20) + 1).as_bytes(), &["line 2:", "more than 1048576 corners"]);
 }
 
-/// tobj numbers the vertices of each group and model again, and drops unused vertices.
 #[test]
 fn vertices_are_the_same_in_all_parts_of_a_large_file() {
     const SIDE: u32 = 200;
@@ -210,7 +207,6 @@ fn vertices_are_the_same_in_all_parts_of_a_large_file() {
     positions.iter().for_each(|p| text += &format!("v {} {} {}\n", p.x, p.y, p.z));
     normals.iter().for_each(|n| text += &format!("vn {} {} {}\n", n.x, n.y, n.z));
     let (mut triangles, mut normal_indices, mut material_of) = (vec![], vec![], vec![]);
-    // Faces alternate between far rows, which makes models share vertices.
     for i in 0..(SIDE - 1) * (SIDE - 1) {
         let (row, column) = (i * 7 % (SIDE - 1), i / (SIDE - 1));
         let a = row * SIDE + column;
@@ -231,7 +227,7 @@ fn vertices_are_the_same_in_all_parts_of_a_large_file() {
     }
     let model = obj(&text);
     assert_eq!(model.positions, positions);
-    // Normal 1 replaces the normals of flat faces.
+    // `model.normals[0]` is a placeholder for flat faces.
     assert_eq!(model.normals[1..], normals[..SIDE as usize - 1]);
     assert!(model.triangles == triangles && model.normal_indices == normal_indices && model.material_of == material_of);
 }
@@ -249,7 +245,6 @@ fn what_tobj_misreads_in_a_library_is_read() {
         let model = read(mtl.as_bytes());
         assert_eq!((&model.materials[..], &model.notes[..]), (&[red.clone()][..], &[][..]), "{mtl:?}");
     }
-    // A bad line gives a note, and all other lines count. tobj panics on some of the bad lines.
     let bad_colours = ["Ka", "Ka 0.5 0.5", "Ka x", "Ka 0 0 nan", "Ka 1e999", "Ka \u{a0} \u{a0} \u{a0}"];
     for bad in bad_colours.into_iter().chain(["Ks spectral a.rfl", "Ns", "Ns inf"]) {
         let Model { materials, notes, .. } =
@@ -258,13 +253,13 @@ fn what_tobj_misreads_in_a_library_is_read() {
         assert!(notes.len() == 1 && notes[0].contains("line 2: `"), "{notes:?}");
     }
     assert_eq!(colours(&read(b"newmtl a\nKd 0.5\nNs -1\nKe \xff\n")), [Vec3::splat(0.5)]);
-    // A `#` begins a comment only between spaces.
+    // The `#` in `Material #2` does not begin a comment.
     let text = format!("{SQUARE}usemtl Material #2\nf 1 2 3\nusemtl Material #3\nf 1 2 3\n");
     let model = with_library(&text, b"newmtl Material #2\nKd 1 0 0\nnewmtl Material #3\nKd 0 1 0\n");
     assert_eq!(colours(&model), [Vec3::X, Vec3::Y]);
 }
 
-/// Names are bytes. Two different names that are not UTF-8 stay different.
+/// Names that are not UTF-8 are compared as bytes.
 #[test]
 #[cfg(target_os = "linux")]
 fn names_need_not_be_text() {

@@ -3,7 +3,7 @@ use glam::Vec3;
 use super::{assert_refused, face_normals, load_files};
 use crate::scene::Model;
 
-/// A square and a triangle. One vertex, the edge and some properties are not needed.
+/// A quadrilateral and a triangle.
 pub(super) const ASCII: &str = "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 5\nproperty float x\nproperty double y\n\
     property float z\nproperty uchar red\nproperty list uchar int tags\nelement face 2\nproperty uchar flags\n\
     property list uchar int vertex_indices\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n\
@@ -13,7 +13,7 @@ fn ply(bytes: &[u8]) -> Model {
     load_files(&[("a.ply", bytes)]).unwrap()
 }
 
-/// The faces of [`ASCII`], with 64-bit coordinates and normals. `length` and `corner` are types of PLY.
+/// Returns the mesh of [`ASCII`] as binary PLY. `length` and `corner` are the names of PLY types.
 pub(super) fn binary(big: bool, length: &str, corner: &str) -> Vec<u8> {
     let order = if big { "big" } else { "little" };
     let mut bytes = format!(
@@ -91,7 +91,7 @@ fn binary_of_both_orders_and_all_integers() {
     }
 }
 
-/// `numbers` are the rows of `elements`, with the type `int`.
+/// `elements` is the part of the header that declares `numbers`.
 fn with_vertices(elements: &str, numbers: &[i32]) -> Vec<u8> {
     let vertices = "element vertex 7\nproperty char x\nproperty char y\nproperty char z\n";
     let header = format!("ply\nformat binary_little_endian 1.0\n{vertices}{elements}end_header\n");
@@ -106,18 +106,18 @@ fn strips_begin_anew_at_minus_one_and_their_winding_alternates() {
     let small = "1 face with fewer than three corners: ignored";
     for (elements, numbers, triangles, notes) in [
         (strips(1), &[8, 0, 1, 2, 3, -1, 4, 5, 6][..], &[[0, 1, 2], [2, 1, 3], [4, 5, 6]][..], &[][..]),
-        // The end of a row ends its strip.
+        // A strip never continues in the next row.
         (strips(2), &[5, 0, 1, 2, 3, 4, 3, 4, 5, 6], &[[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 5, 6]], &[]),
         // Strips and faces keep the order of the file.
         (strips(1) + face, &[3, 0, 1, 2, 3, 4, 5, 6], &[[0, 1, 2], [4, 5, 6]], &[]),
-        // A strip without a triangle gives a note, but the empty strip between two -1 gives none.
+        // The strip 3, 4 gives a note. Empty strips give no note.
         (strips(1), &[9, -1, 3, 4, -1, -1, 0, 1, 2, -1], &[[0, 1, 2]], &[small]),
     ] {
         let model = ply(&with_vertices(&elements, numbers));
         assert_eq!(model.triangles, triangles, "{numbers:?}");
         assert_eq!(model.notes, notes, "{numbers:?}");
     }
-    // A strip may be longer than a face.
+    // The limit of corners per face does not apply to strips.
     let long: Vec<i32> = [2_000_000].into_iter().chain((0..2_000_000).map(|i| i % 7)).collect();
     assert_eq!(ply(&with_vertices(&strips(1), &long)).triangles.len(), 1_999_998);
 
@@ -139,7 +139,6 @@ fn strips_begin_anew_at_minus_one_and_their_winding_alternates() {
 fn every_truncation_is_refused() {
     let text = ASCII.trim_end();
     for (file, data) in [(text.as_bytes().to_vec(), text.len() - 2), (binary(false, "uchar", "int"), usize::MAX)] {
-        // A text without its last digit may still be valid.
         for end in 0..file.len().min(data) {
             assert_refused("a.ply", &file[..end], &["a.ply"]);
         }

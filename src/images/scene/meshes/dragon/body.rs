@@ -1,4 +1,4 @@
-//! The serpent body with its scales, the crest of spines along the back, and the legs.
+//! The body of the dragon.
 
 use glam::{Vec3, Vec4, vec4};
 
@@ -34,7 +34,7 @@ const PIECES: usize = 6;
 
 const AROUND: f32 = 16.0;
 
-/// Returns the frame at the end of the neck.
+/// Returns the frame where the neck meets the head.
 pub fn model(sdf: &mut Sdf) -> Frame {
     let tube = Tube::through(&SPINE, PIECES);
     let frames = tube.frames(12 * PIECES, Vec3::Y);
@@ -69,16 +69,16 @@ fn scaly_tube(sdf: &mut Sdf, tube: &Tube, frames: &[Frame]) {
     }
 }
 
-/// The height of the scales is from 0 to 1. (`x`, `y`) is the direction from the axis, and +y is the back.
+/// Returns a height in [0, 1]. (`x`, `y`) is the direction from the axis of the tube. +y points away from the belly.
 fn scales(row: f32, x: f32, y: f32) -> f32 {
     let turn = (libm::atan2(f64::from(x), f64::from(y)) / std::f64::consts::TAU) as f32;
     let belly = ((turn.abs() - 0.36) / 0.03).clamp(0.0, 1.0);
 
-    // Broad plates across the belly, with furrows between them.
+    // Broad plates on the belly.
     let part = row * 0.6 - (row * 0.6).floor();
     let plate = (1.0 - (2.0 * part - 1.0) * (2.0 * part - 1.0)).sqrt();
 
-    // Round scales. Each row is shifted by half a scale.
+    // Round scales. Odd rows are shifted by half a scale.
     let mut scale = 0.0f32;
     for step in -1..=1 {
         let line = row.floor() + step as f32;
@@ -125,7 +125,6 @@ fn tail_tuft(sdf: &mut Sdf, tube: &Tube) {
 
 fn legs(sdf: &mut Sdf) {
     let v = Vec3::new;
-    // Hip or shoulder, knee and ankle; thickness; direction of the foot.
     let legs = [
         ([v(0.98, 0.98, 0.24), v(0.86, 0.55, 0.56), v(1.12, 0.17, 0.60)], 0.2, v(0.9, 0.0, 0.35)),
         ([v(0.98, 0.98, -0.20), v(0.92, 0.55, -0.48), v(1.30, 0.17, -0.48)], 0.2, v(1.0, 0.0, -0.2)),

@@ -1,4 +1,4 @@
-//! A dragon mesh that replaces the scanned dragon, which may not be copied.
+//! A generated dragon mesh in place of the scanned dragon.
 
 mod body;
 mod head;
@@ -10,15 +10,14 @@ use super::{fit::fit, noise};
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// The number of triangles of the source report's dragon.
+/// The triangle count of the dragon in the source report.
 const TRIANGLES: usize = 130_858;
 
 const BOUNDS: Aabb = Aabb { min: Vec3::new(-0.102, 0.0, -0.046), max: Vec3::new(0.102, 0.144, 0.046) };
 
 const STEP: f32 = 0.0221;
 
-/// A closed dragon with smooth normals that stands on y = 0 and looks to +x. The signed distance function is 20 times
-/// as large as the mesh.
+/// A closed dragon that stands on y = 0 and faces +x.
 pub fn dragon() -> Model {
     let mut sdf = Sdf::new(0.012, pebbled);
     let spine = body::model(&mut sdf);

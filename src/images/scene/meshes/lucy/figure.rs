@@ -1,4 +1,4 @@
-//! Head with hair, neck, arms and hands, and the torch.
+//! The head, the arms and the torch of the statue.
 
 use glam::{Vec3, Vec4, vec4};
 
@@ -32,7 +32,6 @@ fn face(sdf: &mut Sdf, head: &Frame) {
     sdf.ellipsoid_in(head, [0.0, -0.575, 0.80], [0.20, 0.06, 0.08]);
 }
 
-/// Waved strands from the parting to a knot at the back, and two locks on the shoulders.
 fn hair(sdf: &mut Sdf, head: &Frame) {
     sdf.group(Blend::smooth(0.05)).ellipsoid_in(head, [0.0, 0.26, -0.14], [0.83, 0.86, 0.86]);
     for side in [-1.0, 1.0] {
@@ -90,7 +89,7 @@ fn raised_arm(sdf: &mut Sdf) {
     sdf.group(Blend::smooth(0.1)).cone(wrist, 0.25, v(-2.93, 19.5, 0.92), 0.34);
     grip(sdf, v(-2.92, 19.62, 1.06), 0.22);
 
-    // The sleeve: rings of cloth on the upper arm, and a corner that hangs down.
+    // The sleeve.
     sdf.group(Blend::smooth(0.07));
     for i in 0..5 {
         let t = 0.18 + 0.14 * i as f32;
@@ -139,7 +138,6 @@ fn grip(sdf: &mut Sdf, at: Vec3, handle: f32) {
     sdf.cone(at + Vec3::new(0.28, 0.1, -0.1), 0.14, at + Vec3::new(0.12, 0.48, 0.22), 0.11);
 }
 
-/// A handle with rings, a cup, and a flame of five tongues.
 fn torch(sdf: &mut Sdf) {
     let (x, z) = (-2.92, 1.06);
     let v = |y: f32| Vec3::new(x, y, z);

@@ -1,4 +1,4 @@
-//! The statue's gown: body, folds, overfold, belt, sash and hanging cloth.
+//! The gown and the legs of the statue.
 
 use glam::{Vec3, vec4};
 
@@ -7,7 +7,7 @@ use crate::scene::meshes::{
     sdf::{Blend, Sdf, rounded_intersection, sine},
 };
 
-/// Horizontal sections: height, half width, half depth, and x and z of the centre.
+/// Each horizontal section has a height, a half width, a half depth and a centre (x, z).
 const BODY: [[f32; 5]; 12] = [
     [1.2, 2.45, 2.15, 0.0, 0.05],
     [2.0, 2.35, 2.05, 0.0, 0.05],
@@ -41,8 +41,8 @@ fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Returns the distance to the body, widened by `wider`, and the angle around the body in radians. The angle is 0 at +z
-/// and grows towards +x.
+/// Returns the approximate signed distance to the body and the angle of `p` around the body. `wider` is added to the
+/// half width and the half depth of the body. The angle in radians is 0 at +z and grows towards +x.
 fn section_distance(p: Vec3, wider: f32) -> (f32, f32) {
     let i = BODY.iter().rposition(|section| section[0] <= p.y).unwrap_or(0).min(BODY.len() - 2);
     let (low, high) = (&BODY[i], &BODY[i + 1]);

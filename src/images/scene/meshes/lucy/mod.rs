@@ -1,4 +1,4 @@
-//! A winged, draped figure with a torch. It replaces the scanned statue Lucy, which may not be copied.
+//! A generated statue in place of the scanned statue Lucy.
 
 mod figure;
 mod gown;
@@ -11,14 +11,14 @@ use super::sdf::{Blend, Sdf, rounded_intersection, split_to};
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// The number of triangles of the source report's statue.
+/// The triangle count of the statue in the source report.
 const TRIANGLES: usize = 275_690;
 
 const BOUNDS: Aabb = Aabb { min: Vec3::new(-6.74, 0.0, -3.87), max: Vec3::new(6.74, 23.15, 3.87) };
 
 const STEP: f32 = 0.0835;
 
-/// A closed statue that stands on y = 0 and looks to +z.
+/// A closed statue that stands on y = 0 and faces +z.
 pub fn lucy() -> Model {
     let mut sdf = Sdf::plain();
     gown::model(&mut sdf);

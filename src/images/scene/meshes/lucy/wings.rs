@@ -10,7 +10,7 @@ pub fn model(sdf: &mut Sdf) {
     }
 }
 
-/// Points of the wing's arm, from the shoulder blade to the hand: distance from the middle, height, radius.
+/// The arm of a wing, as points (distance from the plane x = 0, height, radius).
 const ARM: [[f32; 3]; 6] = [
     [0.45, 14.2, 0.5],
     [1.5, 15.6, 0.52],
@@ -20,7 +20,7 @@ const ARM: [[f32; 3]; 6] = [
     [5.75, 17.3, 0.22],
 ];
 
-/// Tips of the long feathers, from the innermost to the outermost: distance from the middle, height.
+/// The curve of the tips of the longest feathers, as points (distance from the plane x = 0, height).
 const TIPS: [[f32; 2]; 9] =
     [[0.9, 10.9], [1.6, 9.6], [2.4, 8.4], [3.2, 7.5], [4.1, 6.9], [5.0, 6.9], [5.8, 7.8], [6.4, 9.4], [6.85, 11.4]];
 
@@ -41,7 +41,7 @@ fn wing(sdf: &mut Sdf, side: f32) {
     let arm = ARM.map(|[out, up, radius]| place(side, out, up, 0.05).extend(radius));
     sdf.tube(&arm, 5);
 
-    // `wide` is half the width, and `thick` is half the thickness.
+    // `wide` is half of the width. `thick` is half of the thickness.
     for (count, length, wide, thick) in [(12, 1.0, 0.46, 0.07), (11, 0.56, 0.46, 0.19), (12, 0.31, 0.42, 0.30)] {
         sdf.group(Blend::smooth(0.03));
         for i in 0..count {
@@ -65,7 +65,6 @@ fn wing(sdf: &mut Sdf, side: f32) {
     }
 }
 
-/// The blade is turned about its shaft, so neighbouring feathers overlap.
 fn feather(sdf: &mut Sdf, side: f32, root: Vec3, tip: Vec3, wide: f32, thick: f32) {
     let frame = Frame::looking(root, tip - root, Vec3::new(0.42 * side, 0.0, 1.0));
     let length = root.distance(tip);

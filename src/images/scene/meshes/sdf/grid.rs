@@ -1,4 +1,4 @@
-//! Samples a signed distance function on a cubic grid.
+//! Samples a signed distance function on a grid of cubic cells.
 
 use glam::{UVec3, Vec3};
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Samples `bounds`, extended by at least two steps on each side.
+    /// The grid extends beyond `bounds` by at least two steps on each side.
     pub fn sample(sdf: &Sdf, bounds: Aabb, step: f32) -> Self {
         let origin = bounds.min - Vec3::splat(2.0 * step);
         let cells = (bounds.extent() / step).ceil().as_uvec3() + UVec3::splat(4);
@@ -54,7 +54,7 @@ impl Grid {
         (0..8).fold(0, |mask, i| mask | u8::from(self.values[self.index(corner(cell, i))] < 0.0) << i)
     }
 
-    /// The cells that the surface crosses, in ascending order.
+    /// The cells that the surface crosses.
     pub fn cells(&self) -> Vec<[usize; 3]> {
         let [nx, ny, nz] = self.size;
         let layer = |z| (0..ny - 1).flat_map(move |y| (0..nx - 1).map(move |x| [x, y, z]));
@@ -62,8 +62,8 @@ impl Grid {
         (0..nz - 1).into_par_iter().flat_map_iter(|z| layer(z).filter(passed)).collect()
     }
 
-    /// Turns outside grid points into inside points until the surface crosses every cell in one piece. One vertex per
-    /// cell then gives a closed two-manifold. No point becomes outside again, so the loop terminates.
+    /// Turns outside grid points into inside points until no cell contains two pieces of the surface. A mesh with one
+    /// vertex per cell is then a two-manifold.
     pub fn simplify(&mut self) {
         let simple: Vec<bool> = (0..=255).map(|mask| connected(mask) && connected(!mask)).collect();
         let mut queue = self.cells();
@@ -111,7 +111,6 @@ fn fill_block(sdf: &Sdf, origin: Vec3, step: f32, block: [usize; 3], size: [usiz
 /// Whether the corners in `mask` are connected along the edges of a cube.
 fn connected(mask: u8) -> bool {
     let mut reached = mask & mask.wrapping_neg();
-    // Each round extends paths by one edge. No path needs more than seven edges.
     for _ in 0..8 {
         let neighbours = (0..8).filter(|c| reached >> c & 1 == 1).flat_map(|c| [1, 2, 4].map(|axis| 1 << (c ^ axis)));
         reached |= mask & neighbours.fold(0, |all, corner: u8| all | corner);

@@ -1,6 +1,6 @@
 //! Solids as signed distance functions, built from primitives.
 //!
-//! Distances use only `f32` arithmetic, square roots and `libm`, so a solid is the same on every machine.
+//! Distances must be the same on every machine. Use only `f32` arithmetic, square roots and functions of `libm`.
 //!
 //! # References
 //! Quilez: Distance functions; Smooth minimum. iquilezles.org, 2008 to 2024.
@@ -24,14 +24,14 @@ const FAR: f32 = 1e9;
 struct Primitive {
     centre: Vec3,
     radius: f32,
-    /// Signed distance to the surface, negative inside. The magnitude may be too small. The length of the gradient must
-    /// not exceed about 1.
+    /// Signed distance to the surface, negative inside. The magnitude may be below the true distance. The length of the
+    /// gradient must not exceed about 1.
     distance: Field,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub struct Blend {
-    /// Width of the smooth minimum; 0 gives a sharp crease.
+    /// Width of the smooth minimum. A width of 0 gives a sharp crease.
     pub smoothing: f32,
     pub subtract: bool,
     /// Factor of the displacement on the group's surface, from 0 to 1.
@@ -57,18 +57,19 @@ struct Group {
     primitives: Vec<Primitive>,
 }
 
-/// A solid: a list of groups that are joined in order. The primitives of one group form a plain union.
+/// A solid. Every group is joined to, or subtracted from, the earlier groups. The primitives of one group form a union
+/// without smoothing.
 pub struct Sdf {
     groups: Vec<Group>,
     displacement: Field,
     highest: f32,
 }
 
-/// Primitives that can affect the surface in a region, as (group, primitive) in ascending order.
+/// Indices (group, primitive) of all primitives that can affect a region. The pairs are in ascending order.
 type Active = Vec<(u16, u16)>;
 
 impl Sdf {
-    /// `displacement` must stay within plus or minus `highest`.
+    /// The values of `displacement` must be between `-highest` and `highest`.
     pub fn new(highest: f32, displacement: impl Fn(Vec3) -> f32 + Send + Sync + 'static) -> Self {
         Self { groups: Vec::new(), displacement: Box::new(displacement), highest }
     }
@@ -111,7 +112,7 @@ impl Sdf {
             let Blend { smoothing, subtract, displacement } = group.blend;
             let sign = if subtract { -1.0 } else { 1.0 };
 
-            // Primitives farther than `bound` do not change the distance.
+            // Primitives farther from `p` than `bound` do not change the distance.
             let mut near = FAR;
             let mut bound = sign * distance + smoothing;
             for &(_, j) in members {
@@ -144,7 +145,7 @@ impl Sdf {
     }
 }
 
-/// Returns the smooth minimum of `a` and `b`, and the weight of `b` from 0 to 1.
+/// Returns (smooth minimum of `a` and `b`, weight of `b` in [0, 1]). The width of the smooth minimum is `k`.
 fn smooth_minimum(a: f32, b: f32, k: f32) -> (f32, f32) {
     if k <= 0.0 || (a - b).abs() >= k {
         return if b < a { (b, 1.0) } else { (a, 0.0) };

@@ -67,7 +67,7 @@ impl RoundCone {
         let along = q.dot(self.axis);
         let off = (q.length_squared() - along * along).max(0.0).sqrt();
 
-        // `foot` is the position of the nearest point along the side of the cone.
+        // `foot` is the coordinate of `p` along the side of the cone.
         let foot = along * self.cosine - off * self.sine;
         if foot <= 0.0 {
             q.length() - self.radius_a
@@ -102,7 +102,7 @@ impl Tube {
         (self.centre((i + 1).min(self.pieces())) - self.centre(i.saturating_sub(1))).normalize()
     }
 
-    /// One frame per point, without twist about the tube. The frame at point `start` has its up axis near `up`.
+    /// Returns one frame per point, without twist about the tube. The up axis of frame `start` is near `up`.
     pub fn frames(&self, start: usize, up: Vec3) -> Vec<Frame> {
         let frame = |i: usize, up: Vec3| Frame::looking(self.centre(i), self.tangent(i), up);
         let mut frames = vec![frame(start, up); self.0.len()];
@@ -134,7 +134,7 @@ pub fn cosine(angle: f32) -> f32 {
     libm::cos(f64::from(angle)) as f32
 }
 
-/// The edge is rounded. `u` and `v` are the distances to the two solids plus `radius`.
+/// If `a` and `b` are the signed distances to two solids, pass `u = a + radius` and `v = b + radius`.
 pub fn rounded_intersection(u: f32, v: f32, radius: f32) -> f32 {
     let (out_u, out_v) = (u.max(0.0), v.max(0.0));
     (out_u * out_u + out_v * out_v).sqrt() + u.max(v).min(0.0) - radius

@@ -14,9 +14,9 @@ pub fn split_to(model: &mut Model, count: usize) {
     }
 }
 
-/// Splits at most one edge per triangle. Vertex numbers break ties.
+/// Splits at most one edge per triangle.
 fn split_longest(model: &mut Model, limit: usize) {
-    // Sorting makes the two half-edges of an edge neighbours.
+    // After sorting, the two half-edges of an edge are adjacent.
     let mut halves = Vec::with_capacity(3 * model.triangles.len());
     for (t, &[a, b, c]) in (0..).zip(&model.triangles) {
         halves.extend([(a, b), (b, c), (c, a)].map(|(p, q)| (p.min(q), p.max(q), t)));

@@ -12,7 +12,7 @@ use crate::geometry::Aabb;
 use crate::scene::{Model, meshes::normals};
 
 impl Sdf {
-    /// Returns the largest connected piece of the surface. The mesh is closed and has edges of about the length `step`.
+    /// Returns the largest connected piece of the surface. The mesh is closed. The edges are about `step` long.
     pub fn surface(&self, bounds: Aabb, step: f32, relax: usize) -> Model {
         let mut grid = Grid::sample(self, bounds, step);
         grid.simplify();
@@ -48,7 +48,8 @@ impl Sdf {
     }
 }
 
-/// The number of one vertex identifies a piece.
+/// Returns one value per vertex. Every value is less than `vertices`. All vertices of a connected piece have the same
+/// value.
 pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..vertices as u32).collect();
     fn root(parent: &mut [u32], mut v: u32) -> u32 {
@@ -67,7 +68,6 @@ pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     (0..vertices as u32).map(|v| root(&mut parent, v)).collect()
 }
 
-/// The discarded pieces are cavities in the solid and crumbs beside the solid.
 fn largest_piece(model: Model) -> Model {
     let pieces = pieces(model.positions.len(), &model.triangles);
     let mut sizes = vec![0u32; pieces.len()];
@@ -131,10 +131,9 @@ fn middle(grid: &Grid, cell: [usize; 3]) -> Vec3 {
     sum / count
 }
 
-/// Moves every vertex in its tangent plane towards the mean of its neighbours, then back onto the surface.
+/// Moves every vertex in its tangent plane towards the mean of its neighbours.
 fn relaxed(sdf: &Sdf, grid: &Grid, positions: &[Vec3], quads: &[[u32; 4]]) -> Vec<Vec3> {
-    // On a closed surface, the quads contain every edge once in each direction. So the corners that follow a vertex in
-    // its quads are all neighbours of the vertex.
+    // On a closed surface, each neighbour of a vertex follows the vertex in exactly one quad.
     let mut around = vec![(Vec3::ZERO, Vec3::ZERO, 0.0); positions.len()];
     for quad in quads {
         let [a, b, c, d] = quad.map(|i| positions[i as usize]);
@@ -153,7 +152,7 @@ fn relaxed(sdf: &Sdf, grid: &Grid, positions: &[Vec3], quads: &[[u32; 4]]) -> Ve
         let pull = (neighbours / count - p) * 0.4;
         let slid = p + pull - n * pull.dot(n);
 
-        // One secant step along the normal returns to the surface.
+        // One secant step along the normal moves the vertex back towards the surface.
         let active = grid.active(p);
         let here = sdf.distance(active, slid).clamp(-step, step);
         if here == 0.0 {

@@ -8,18 +8,17 @@ use crate::scene::meshes::{
 
 const HALF_WALL: f32 = 26.0;
 
-/// Coordinates are relative to the frame that [`build`] receives.
 struct Arch {
     middle: f32,
     half_bay: f32,
     radius: f32,
-    /// The heights of the foot of the arch and of the top of the wall.
+    /// Height of the foot of the arch, then height of the top of the wall.
     heights: [f32; 2],
     half_wall: f32,
     pieces: usize,
 }
 
-/// `frame` looks into the court. The bays extend to the right of the frame's origin.
+/// `frame.ahead` points into the court. The bays extend from `frame.origin` along `frame.right`.
 pub fn build(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     let length = bays as f32 * bay;
     let lower = Column { height: 306.0, radius: 29.0, sides: 20, leaves: 8, shaft: ("column_a", [0.95, 0.90, 0.82]) };
@@ -70,7 +69,7 @@ impl Arch {
             let [u, y] = self.on_circle(column, self.radius);
             frame.at(u, y, if row == 0 { -w } else { w })
         });
-        // Mouldings on the wall that faces the court.
+        // Only the court side of the wall has mouldings.
         let size = self.radius / 72.0;
         let bands =
             [[0.0, 0.0], [0.0, 5.0], [6.0, 7.0], [8.0, 4.0], [14.0, 4.0], [16.0, 8.0], [21.0, 9.0], [23.0, 0.0]];

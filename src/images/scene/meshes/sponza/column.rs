@@ -10,7 +10,7 @@ pub struct Column {
     /// Radius of the shaft at its foot.
     pub radius: f32,
     pub sides: usize,
-    /// Leaves in each of the two rows of the capital.
+    /// Number of leaves in each of the two rows of the capital.
     pub leaves: usize,
     pub shaft: (&'static str, [f32; 3]),
 }

@@ -1,4 +1,4 @@
-//! A two-storey arcaded court. It replaces the Sponza model, which may not be copied.
+//! A two-storey arcaded court. It replaces the Sponza model, which we are not permitted to copy.
 //!
 //! The tessellation is uneven, as in most models of architecture.
 
@@ -11,7 +11,7 @@ use glam::Vec3;
 use super::{patches::Patches, sdf::Frame};
 use crate::scene::{Material, Model};
 
-/// The number of triangles of the source report's Sponza.
+/// The replaced Sponza model has this number of triangles.
 const TRIANGLES: usize = 174_838;
 
 /// Half length of the court along x, half width along z, and z of the middle.
@@ -23,7 +23,7 @@ const UPPER: f32 = 470.0;
 
 const EAVES: f32 = 900.0;
 
-/// Column spacing of the lower storey. The spacing of the upper storey is half as large.
+/// Column spacing of the lower storey along the two long sides.
 const BAY: f32 = 208.0;
 
 /// The court's floor is at y = 0. The mesh is not closed.

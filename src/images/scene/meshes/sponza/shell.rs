@@ -38,7 +38,7 @@ pub fn walk(patches: &mut Patches, frame: &Frame, bays: usize, bay: f32) {
     patches.quad([at(from, top, -WALK), at(to, top, -WALK), at(to, top, 16.0), at(from, top, 16.0)]);
 }
 
-/// A groin vault is the maximum of two crossing barrel vaults.
+/// A groin vault: two crossing barrel vaults.
 fn vault(patches: &mut Patches, frame: &Frame, from: f32, bay: f32) {
     patches.of(&material("ceiling", [0.95, 0.90, 0.80]));
     let rise = |t: f32| 100.0 * (1.0 - (2.0 * t - 1.0) * (2.0 * t - 1.0)).max(0.0).sqrt();
@@ -84,7 +84,7 @@ pub fn grounds(patches: &mut Patches) {
         }
     }
 
-    // The outer building stands on ground lower than the court.
+    // The ground around the building is lower than the court.
     patches.of(&material("brick", [0.93, 0.84, 0.72]));
     let (near, far) = (middle - half_width - WALK - 1.0, middle + half_width + WALK + 1.0);
     let (left, right) = (from - 1.0, to + 1.0);
@@ -115,7 +115,7 @@ pub fn roofs(patches: &mut Patches, triangles: usize) {
     patches.of(&material("roof", [0.95, 0.60, 0.44]));
     for [from, to, up] in slopes {
         patches.quad([from, to, to + up, from + up]);
-        // The slightly lower underside is visible from the court.
+        // The underside of the roof is visible from the court.
         let down = v(0.0, -4.0, 0.0);
         patches.quad([to + down, from + down, from + up + down, to + up + down]);
         patches.quad([from + down, to + down, to, from]);
@@ -143,7 +143,7 @@ pub fn roofs(patches: &mut Patches, triangles: usize) {
 const ROWS: usize = 11;
 const TILE: f32 = 44.0;
 
-/// The lower end of a tile is raised, because it lies on the row below.
+/// `lift` is larger at the lower end of a tile. The lower end overlaps the row below.
 fn tile(patches: &mut Patches, [from, to, up]: &Slope, [column, columns]: [usize; 2], row: usize, sides: usize) {
     let along = (to - from) / columns as f32;
     let step = up / ROWS as f32;

@@ -101,7 +101,7 @@ fn instances_are_expanded() {
         assert_eq!((model.positions[0], model.positions[4]), (Vec3::X * 7.0, Vec3::new(7.0, 0.0, 5.0)));
     }
     let all = gltf(&instanced_square());
-    // The corner (1, 1, 0) is scaled to (2, -1, 0), turned to (-2, 1, 0), and shifted by the instance and the node.
+    // The scale of the second instance maps the corner (1, 1, 0) to (2, -1, 0).
     let expected = Quat::from_xyzw(0.0, 0.0, 1.0, 0.0) * Vec3::new(2.0, -1.0, 0.0) + Vec3::new(7.0, 0.0, 5.0);
     assert_eq!(all.positions[6], expected);
     assert_eq!(all.triangles[2..], [[4, 6, 5], [4, 7, 6]], "a mirror turns the corners round");
