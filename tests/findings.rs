@@ -101,7 +101,7 @@ fn each_finding_is_still_there_and_ours_find_the_hit() {
     }
 }
 
-/// Excludes two meshes on which every stratum has errors.
+/// Excludes two meshes with very small coordinates. The structures of obvhs lose many hits on these meshes.
 pub fn meshes() -> Vec<Named> {
     let mut meshes = degenerate_meshes();
     meshes.retain(|(name, _)| name != "soup times 2^-30" && name != "exponential sequence");

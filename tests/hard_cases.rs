@@ -14,7 +14,7 @@ const RAYS: usize = 200;
 const FEW: usize = 10;
 const LABORIOUS: [&str; 3] = ["duplicates_20000", "fan_apex", "far_1e8"];
 
-/// Triangle tests whose hits are right except for the final rounding to `f32`.
+/// Triangle tests that must have no `strict_errors` on the moderate and extreme cases.
 const IN_F64: [&str; 2] = ["moller-trumbore-f64", "edge-f64"];
 
 /// Structures with the traversal of `sah-hybrid`. These structures run only with the triangle tests in `FEW_TESTS`.

@@ -75,7 +75,7 @@ fn every_configuration_is_right_on_random_rays_counts_and_has_a_possible_shape()
         passes(counting(&subject, &meshes, 10));
         passes(shapes(&subject, &meshes));
         for finding in findings(&subject, &meshes, 40).unwrap() {
-            // If several triangles have equal `t`, the triangle that Embree returns may depend on the packet.
+            // With `rays=coherent`, Embree's choice between triangles with equal `t` may depend on the packet.
             let another = if choice.label.ends_with("coherent") { finding.validation.unrepeatable } else { 0 };
             let wrong = finding.validation.errors() > another;
             assert!(finding.stratum != Stratum::Random || !wrong, "{}", finding.line(&choice.label));

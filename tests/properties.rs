@@ -1,4 +1,4 @@
-//! Properties that hold for every mesh and ray, tested on generated meshes and rays.
+//! Property tests with generated meshes and rays.
 
 #[path = "fuzz/target.rs"]
 mod target;

@@ -1,7 +1,7 @@
 //! Handles Ctrl-C and SIGTERM on Linux.
 //!
-//! After `listen(true)`, the first Ctrl-C only requests a stop. A stopped run prints and saves its results. The second
-//! Ctrl-C ends the process at once. SIGTERM ends the process at once.
+//! After `listen(true)`, the first Ctrl-C requests a stop and kills the child process that is measuring. A stopped run
+//! prints and saves its results. The second Ctrl-C ends the process at once. SIGTERM ends the process at once.
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[cfg(target_os = "linux")]
 use nix::sys::signal::{SigSet, Signal, raise};
 
-/// Whether the first Ctrl-C only requests a stop. Otherwise the first Ctrl-C ends the process at once.
+/// Whether the first Ctrl-C requests a stop. Otherwise the first Ctrl-C ends the process at once.
 static LISTENS: AtomicBool = AtomicBool::new(false);
 static ASKED: AtomicBool = AtomicBool::new(false);
 static ENDING: AtomicBool = AtomicBool::new(false);

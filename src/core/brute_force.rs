@@ -9,7 +9,7 @@ use crate::traversal::leaf::{LeafBlock, search, start};
 use crate::traversal::walk::{Walk, walked_queries};
 use crate::triangle::TriangleTest;
 
-/// Tests all triangles, without a tree.
+/// Tests all triangles that are not degenerate, without a tree.
 ///
 /// The `t` of the nearest hit is bit-identical to the result of `triangle::scalar_hit` for the hit triangle.
 pub struct BruteForce<T: TriangleTest> {

@@ -1,4 +1,4 @@
-//! The structures that are compiled in this crate.
+//! Builds structures with code that is compiled in this crate and not in the crates of the callers.
 //!
 //! To add a structure, add its type to a call of `offered!`.
 
@@ -18,7 +18,7 @@ use crate::geometry::Mesh;
 use crate::kdtree::KdTree;
 use crate::triangle::{BaldwinWeber, EdgeF64, Exact, MollerTrumbore, MollerTrumboreF64, Plucker, Watertight};
 
-/// A structure that is compiled in this crate.
+/// A structure whose function `boxed` is compiled in this crate and not in the crates of the callers.
 pub trait Offered: Accel {
     /// Builds the structure and erases its type.
     ///

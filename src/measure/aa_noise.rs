@@ -11,7 +11,7 @@ use super::summary::{Variance, mean};
 #[derive(Clone, Debug, PartialEq)]
 pub struct AaNoise {
     /// Each cell has one time ratio of two builds of the same structure. Without noise, each ratio is 1. The
-    /// confidence intervals of the ratios do not account for the A/A noise.
+    /// prediction intervals of the ratios do not include the A/A noise.
     pub ratios: Vec<Estimate>,
     noise: Variance,
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::Threads;
 
 pub trait Clock {
-    /// Nanoseconds since some fixed moment.
+    /// The clock's time in nanoseconds, from a fixed zero.
     fn now_ns(&self) -> u64;
 }
 

@@ -81,7 +81,8 @@ impl Provenance {
         Self { pinned, clock, governor: machine::governor(core), ..Self::capture(threads.count()) }
     }
 
-    /// Hosts count as one machine if all returned fields are equal.
+    /// Two runs count as runs of the same build and machine if all returned fields are equal. The host name is not
+    /// returned.
     pub fn machine(&self) -> Map<String, Value> {
         let facts = "version commit build rustc profile target_features simd cpu threads process_per_epoch";
         let all = serde_json::to_value(self).expect("keys are text");

@@ -81,6 +81,7 @@ pub fn level_by_clock(watch: &Stopwatch, case: &mut dyn Timed, from: usize, most
     let rays = u128::from(LONG_PILOT_NS) * 1000 / first;
     let enough = (from..few).rev().find(|&level| rays_at(all, level) as u128 >= rays).unwrap_or(from);
     let ps = if enough < few && rays > rays_at(all, few) as u128 { pace(enough) } else { first };
+    // A sample also includes the rays of the next level, because another epoch may use the next level.
     // 19 / 8 = 1 (timed pass) + 1 (warm-up pass) + 1 / 4 (next level) + 1 / 8 (lead-in).
     let fits = |level: &usize| rays_at(all, *level) as u128 * ps * 19 / 8 / 1000 <= u128::from(most_ns);
     let last = last_level(all);

@@ -47,7 +47,7 @@ pub struct Samples {
     /// The [`checksum`](Self::checksum) covers the rays that epoch 0 selects at this level. `None` if the checksum
     /// covers the timed rays.
     pub checksum_level: Option<usize>,
-    /// This checksum covers rays that are equal in all epochs.
+    /// This checksum covers the same rays in every epoch.
     pub checksum: u64,
     /// This checksum covers the timed rays.
     pub timed_checksum: u64,

@@ -15,7 +15,8 @@ pub struct Choice {
     pub entry: Entry,
     /// The whole configuration, including defaults.
     pub config: Value,
-    /// `name`, or `name:key=value,..` with the values that differ from the default.
+    /// `name`, or `name:key=value,..` with the values that differ from the default. The label of an external program is
+    /// the program name, followed by ` (own clock)`.
     pub label: String,
 }
 
@@ -89,7 +90,7 @@ impl Choice {
         let choice = Self { entry: entry.clone(), config, label };
         match choice.build(&Arc::new(empty())) {
             Err(BuildError::Config(reason)) => Err(ChoiceError::Config { name: entry.name.clone(), reason }),
-            // The empty mesh is built only to check the configuration. Only `BuildError::Config` is reported.
+            // This build over the empty mesh only checks the configuration. Only `BuildError::Config` is reported.
             _ => Ok(choice),
         }
     }

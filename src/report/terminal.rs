@@ -7,7 +7,7 @@ use crate::escaped::Escaped as _;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Screen {
-    /// Characters per line. `None` is unlimited.
+    /// Characters per line. If `None`, tables have unlimited width, and notes are wrapped as for 120 characters.
     pub width: Option<u16>,
     pub colour: bool,
 }

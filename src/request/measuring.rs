@@ -8,7 +8,7 @@ use super::MEASURING;
 
 /// The timing options. The const parameters are the default values of `--epochs`, `--runs` and `--budget`.
 ///
-/// These options use `default_value`. Clap would store a `default_value_t` only once for all instances of this type.
+/// These options use `default_value`. Clap would store a `default_value_t` only once for all const parameters.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = MEASURING)]
 pub struct Measuring<const EPOCHS: u16 = 5, const RUNS: u16 = 3, const BUDGET: u32 = 8> {

@@ -188,7 +188,7 @@ impl RaySource {
     }
 }
 
-/// Reads a ray file and loads the scene of the rays. If `named` is empty, the ray file contains the scene name.
+/// Reads a ray file and loads the scene of the rays. If `named` is empty, the scene name in the ray file is used.
 ///
 /// Returns `None` if `source` is not a file.
 pub fn recorded(

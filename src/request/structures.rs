@@ -85,7 +85,7 @@ pub fn structures(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<C
     structures_at(registry, named, None)
 }
 
-/// Sets the key `quality` of the structures that have this key. A quality in `named` takes precedence.
+/// Sets the key `quality` of every structure that accepts this key. A quality in `named` takes precedence.
 pub fn structures_at(registry: &Registry, named: &[String], quality: Option<&str>) -> anyhow::Result<Vec<Choice>> {
     let at = |spec: String| {
         let Some(quality) = quality else { return spec };

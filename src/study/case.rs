@@ -63,7 +63,8 @@ pub struct Settings {
 pub enum Check {
     /// Brute force with the triangle test of each structure.
     ///
-    /// Wrong hits remove times of the structure.
+    /// A structure with wrong hits loses all its times. A structure with a known defect loses only its times on the
+    /// workloads with wrong hits.
     BruteForce {
         /// Approximate maximum number of brute-force triangle tests per workload.
         tests: usize,
@@ -183,7 +184,7 @@ impl Case {
         // By default, scenes of different sizes have different build limits.
         map.remove("build_limit_s");
         let workloads = serde_json::to_value(&self.workloads).expect("a request has text keys");
-        // In `replicate`, scenes with different workloads form one group.
+        // Only `replicate` has these two workloads. Its scenes form one group, whichever of the two they have.
         if !matches!(self.workloads, WorkloadRequest::Picture | WorkloadRequest::PrimaryPicture) {
             map.insert("workloads".into(), workloads);
         }

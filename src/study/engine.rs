@@ -206,7 +206,9 @@ impl Engine<'_> {
         screen.warn(&report.warnings);
         let (mut tables, mut notes, mut foot) = (vec![], vec![], vec![]);
         if is_reported || !dataset.measured.is_empty() {
-            // The summary leaves out scenes that lack epochs because of a failure or an interruption.
+            // If the run was interrupted, the summary leaves out every scene that lacks epochs. Without a time limit,
+            // the summary also leaves out each failed scene that lacks epochs. If no scene would remain, the summary
+            // includes all measured scenes.
             let lacks = |case: &Case| {
                 self.plan.cases.iter().any(|other| other.is_of_scene(case) && self.journal.get(other).is_none())
             };

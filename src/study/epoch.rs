@@ -50,7 +50,7 @@ pub struct Structure {
     /// Whether the structure is refused because of wrong hits.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub wrong: bool,
-    /// The median of up to three builds. A runner reports the build time.
+    /// The median of up to three builds. For a runner, the build time that it reports.
     pub build_ns: u64,
     /// Peak memory during the build minus memory in use before the build. `None` except in epoch 0.
     pub build_peak_bytes: Option<usize>,

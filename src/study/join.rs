@@ -114,7 +114,8 @@ fn make_consistent(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
             if let Some(other) = differing(|a, b| a.rays == b.rays).filter(|_| structure.name != RUNNER) {
                 return apart(other, &first.workload, "the number of timed rays");
             }
-            // A runner chooses the number of timed rays by its clock. Keep the largest number that every epoch has.
+            // A runner chooses the number of timed rays by its clock. `rays.ns` gets the times for the largest number
+            // of rays that every epoch timed.
             let common = common_sizes(epochs, place, kind);
             let Some(&largest) = common.first() else {
                 refuse(epochs, place, UNSTEADY);

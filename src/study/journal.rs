@@ -33,7 +33,8 @@ impl Journal {
     /// has locked the folder. Two simultaneous runs would disturb each other's times.
     pub fn open(folder: &Path, provenance: Provenance, fresh: bool, cases: &[Case]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|cause| JournalError::Write { path: folder.into(), cause })?;
-        // The folder is locked before reading. Otherwise, new files of an earlier run could be missed.
+        // Lock the folder before reading it. Otherwise, another run could add files after the reading and end before
+        // the locking.
         let lock = File::open(folder).ok();
         // Windows and many network file systems cannot lock folders. On these systems, a run continues without a lock.
         let is_taken = lock.as_ref().is_some_and(|own| matches!(own.try_lock(), Err(TryLockError::WouldBlock)));

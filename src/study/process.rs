@@ -80,7 +80,7 @@ pub fn measure_apart(
         // The write fails if the new process has ended. The exit status is checked after the loop.
         let _ = writeln!(input);
     }
-    // A blocking wait would hold the lock. In another thread, `end` needs the lock.
+    // A blocking wait would hold the lock. Another thread can call `end`, which needs the lock.
     let status = loop {
         if let Some(status) = locked(&child.0).try_wait().map_err(|cause| failure(cause.to_string()))? {
             break status;

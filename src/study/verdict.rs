@@ -11,7 +11,7 @@ pub struct Verdict {
     pub rays: u64,
     /// Errors that rounding cannot explain.
     pub wrong: u64,
-    /// Rays with a result that differs from the exact result only by rounding.
+    /// Errors that rounding may explain. Errors of `t` that `DepthRule::STRICT` allows are not counted.
     #[serde(default)]
     pub rounded: u64,
     /// The worst kind of error.

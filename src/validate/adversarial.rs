@@ -306,7 +306,7 @@ impl<'a> Generator<'a> {
     fn rounded_end(&mut self) -> Ray {
         let corners = self.corners();
         let (target, away) = (self.sampler.point_of(corners), self.sampler.pick(&[1.0, 30.0, 1e3]));
-        // After `near_the_largest_t`, a long direction has fewer denormal components than a short direction.
+        // If the origin is far from the target, `near_the_largest_t` produces fewer denormal direction components.
         let back = (self.origin() - target) * away;
         let mut ray = Ray::new(target + back, -back * (0.5 + self.sampler.unit()));
         let (is_far, end) = (self.sampler.coin(), self.sampler.below(3) / 2);

@@ -155,7 +155,7 @@ impl Dispute<'_> {
         self.rounded(truth)
     }
 
-    /// `None` if a triangle test with the precision of `reference` may return `found`.
+    /// `None` if a triangle test with the precision `reference.precision` may return `found`.
     fn no_hit(&self, found: Hit, truth: Option<&(ExactT, PrimId)>) -> Option<Blame> {
         let prim = found.prim;
         let is_there =

@@ -121,15 +121,15 @@ pub fn validate_hits(expected: &ExpectedHits, found: &[Option<Hit>]) -> Validati
 
 /// Returns the ray index and the kind of each difference between `found` and the expected hits.
 ///
-/// If structure and reference have different triangle tests, a `t` that
-/// [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) allows is no difference.
+/// Structure and reference may have different triangle tests. In this case,
+/// [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) decides whether two `t` on one primitive differ.
 pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize, Kind)> {
     let differs = |index: usize| Some((index, expected.dispute(index, found[index]).blame()?.0));
     (0..expected.rays.len()).into_par_iter().filter_map(differs).collect()
 }
 
-/// Compares the any-hit results `found` with the closest hits of the reference. Exact arithmetic judges the
-/// differences.
+/// Compares the any-hit results `found` with the closest hits of the reference. If the reference has the same triangle
+/// test, a hit that the reference misses is an error. Exact arithmetic judges all other differences.
 ///
 /// If rounding may explain a difference, `subject` also traces the ray with the closest-hit query. The results of the
 /// two queries must agree.

@@ -13,7 +13,7 @@ pub struct ErrorCounts {
     pub false_hits: u64,
     /// Hits at a depth that the `DepthRule` of the comparison rejects.
     pub wrong_depth: u64,
-    /// Hits at any depth on a primitive that is not nearest in exact arithmetic.
+    /// Hits at any depth on a primitive that is not nearest in exact arithmetic. False hits are excluded.
     pub wrong_primitive: u64,
     /// Errors of `t` for the hits on a primitive that is nearest in exact arithmetic. `None` without such a hit.
     pub ulps: Option<Ulps>,

@@ -1,8 +1,9 @@
 //! Compares the hits of a structure with the hits of a reference.
 //!
 //! A *structure error* is a hit that the traversal of the structure lost or invented. A *triangle-test error* is a
-//! wrong result, caused by rounding in the triangle test. If the reference has another triangle test than the
-//! structure, a wrong hit is an *answer error*. Rounding in single precision cannot explain an answer error.
+//! wrong result, caused by rounding in the triangle test. An *answer error* is a wrong result that rounding in the
+//! triangle test cannot explain. A comparison counts answer errors only if it cannot distinguish structure errors from
+//! triangle-test errors.
 
 pub mod adversarial;
 mod blame;

@@ -58,8 +58,8 @@ const BATCH: usize = 32;
 pub struct Reference {
     /// The structure whose hits are expected.
     pub accel: Box<dyn DynAccel>,
-    /// The common triangle test of the reference and the tested structure. `None` if the triangle tests differ, or if
-    /// the reference may have lost hits.
+    /// The common triangle test of the reference and the tested structure. `None` if the triangle tests differ.
+    /// [`Reference::structure`] always sets `None`.
     pub test: Option<ScalarTest>,
     /// The assumed precision of the triangle test of the tested structure. Used only if `test` is `None`.
     pub precision: Precision,

@@ -35,7 +35,7 @@ pub struct Validation {
     pub depth_errors: u64,
     /// Rays whose any-hit and closest-hit results contradict each other.
     pub any_hit_errors: u64,
-    /// Rays that have different results in a batch and on their own.
+    /// Rays that have different results in a batch and on their own, or in two batches.
     pub unrepeatable: u64,
     /// Batches in which the structure panicked.
     pub panics: u64,
@@ -43,8 +43,7 @@ pub struct Validation {
     pub hangs: u64,
     /// Rays on which structure and reference return different primitives at the same `t`. Not errors.
     pub ties: u64,
-    /// Ties in which the reference's primitive has the lower number. These ties are errors only if the structure
-    /// promises the lowest primitive number.
+    /// Ties with [`Kind::HigherId`]. These ties are errors only if the structure promises the lowest primitive number.
     pub higher_ids: u64,
     /// At most [`Validation::WORST`] rays, worst first.
     pub worst: Vec<WorstRay>,
@@ -75,8 +74,8 @@ named_enum! {
         Lost = "lost",
         /// The structure misses the nearest exact hit, but returns another hit.
         NearerLost = "nearer-lost",
-        /// The structure returns a hit that its triangle test does not find. Exact arithmetic replaces an unknown
-        /// triangle test.
+        /// The structure returns a hit that its triangle test does not find. If the triangle test is unknown, exact
+        /// arithmetic judges the hit.
         Invented = "invented",
         /// The ray hits the returned primitive, but at another `t`.
         WrongT = "wrong-t",
@@ -90,8 +89,8 @@ named_enum! {
         TriangleTest = "triangle-test",
         /// An error of the reference, not of the structure.
         Reference = "reference",
-        /// A tie in which the reference's primitive has the lower number. An error only if the structure promises the
-        /// lowest primitive number.
+        /// A tie in which the reference's primitive has the lower number. Exact arithmetic confirms a hit on this
+        /// primitive, at this `t` or before. An error only if the structure promises the lowest primitive number.
         HigherId = "higher-id",
         /// Structure and reference return different primitives at the same `t`. Not an error.
         Tie = "tie",

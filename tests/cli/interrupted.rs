@@ -1,4 +1,4 @@
-//! Tests runs that a signal interrupts.
+//! Interrupts runs with signals and checks how the runs end.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};

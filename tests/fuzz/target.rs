@@ -205,6 +205,7 @@ fn same_on_all_levels(accel: &dyn DynAccel, rays: &[Ray]) -> Result<(), String> 
 const KINDS: u8 = 7;
 
 /// Kinds 0 to 6: multiple of 1/8, zero, denormal, power of two, magnitude below 4, arbitrary bits, not finite.
+/// Kind 2 may return zero. Kind 3 may return zero or infinity.
 fn float_of(kind: u8, bits: u32) -> f32 {
     let signed = |x: f32| if bits >> 31 == 1 { -x } else { x };
     match kind {

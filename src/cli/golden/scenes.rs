@@ -44,7 +44,7 @@ pub struct CheckArgs {
     #[command(flatten)]
     targets: Targets,
     /// Structure with options (see `sahara list NAME`); may be repeated [default: all structures that offer the exact
-    /// triangle test, with it]
+    /// triangle test, over this test]
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME[:key=value,..]")]
     structure: Vec<String>,
     #[command(flatten)]

@@ -139,7 +139,7 @@ fn part(scene: &Scene, args: &Args, waiting: &ProgressBar) -> anyhow::Result<(Fi
     Ok((files, counts))
 }
 
-/// The ray file stores no scene hash, because a scene from the mesh file has another hash.
+/// The ray file stores no scene hash. A scene loaded from the PLY file may have a different hash than `scene`.
 fn rays_with_exact_hits(
     scene: &Scene,
     kind: RayKind,

@@ -4,7 +4,7 @@ use crate::geometry::Aabb;
 use crate::triangle::BLOCK;
 
 /// Expected cost of a tree for a random line through the root box (Goldsmith, Salmon 1987; MacDonald, Booth 1990). The
-/// empty-space bonus comes from Wald and Havran (2006). A leaf tests a block of triangles at once.
+/// empty-space bonus comes from Wald and Havran (2006). The cost of a leaf is proportional to its number of blocks.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CostModel {
     step: f64,

@@ -9,9 +9,9 @@ use crate::simd::{Lanes, each};
 ///
 /// **A box is rejected only if every ray misses the box.** A ray has origin o and inverse direction i. The crossing of
 /// a near plane p is computed as fl(fl(p - o) * i), where fl rounds to `f32`. Rounding is monotonic, so the crossing is
-/// monotonic in o and in i. Extremes of o and i therefore give a lower bound of all near crossings. In the same way,
-/// extremes give an upper bound of all far crossings. If the lower bound exceeds the upper bound, every ray misses the
-/// box.
+/// monotonic in o and in i. Extremes of o and i therefore give a lower bound of all near crossings. Extremes
+/// of o and of the enlarged i give an upper bound of all far crossings. If the lower bound exceeds the upper bound,
+/// every ray misses the box.
 pub(super) struct Frustum<L> {
     near_origin: [L; 3],
     far_origin: [L; 3],

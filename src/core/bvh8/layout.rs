@@ -20,7 +20,8 @@ pub(super) struct Layout<T: TriangleTest> {
 }
 
 impl<T: TriangleTest> Layout<T> {
-    /// `most` affects only the order of the nodes and blocks.
+    /// `most` is the maximum number of references of a subtree that a separate [`Piece`] writes. `most` affects only
+    /// the order of the nodes and blocks.
     pub fn new(mesh: &Mesh, collapse: &Collapse, limits: &Limits, most: usize) -> Result<Self, BuildError> {
         let Some(root) = collapse.root() else {
             return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });

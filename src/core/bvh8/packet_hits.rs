@@ -12,8 +12,8 @@ pub(super) const HALVES: usize = RAYS / WIDTH;
 pub(super) struct PacketHits<'a, T: TriangleTest> {
     blocks: &'a [LeafBlock<T>],
     t: [[f32; WIDTH]; HALVES],
-    /// Lower bounds of the exact `t` of the hits. The field `t` contains upper bounds. Without a hit, the bound is
-    /// infinite.
+    /// Lower bounds of the exact `t` of the hits. The field `t` contains upper bounds. Without a hit, the lower bound
+    /// is infinite.
     least: [[f32; WIDTH]; HALVES],
     /// The numbers of the hit triangles, or [`NONE`].
     ids: [[u32; WIDTH]; HALVES],

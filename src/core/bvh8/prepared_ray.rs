@@ -19,11 +19,12 @@ use crate::traversal::line::inverses;
 /// - For a far plane p, the exit is fl(F), where F = fl(p - o) * g. The factor g is i, enlarged by 16 units and
 ///   rounded. Three roundings put F less than 3.1 units from the point 16 units beyond f.
 /// - So F is at least f. From f >= t* >= `t_min` follows fl(F) >= `t_min`.
-/// - If n is not negative, N <= F for a near plane and a far plane of any axes. Rounding is monotonic, so fl(N) <=
-///   fl(F).
+/// - If n is not negative, N <= F for every near plane and every far plane of the box, also on different axes. Rounding
+///   is monotonic, so fl(N) <= fl(F).
 /// - If n is negative, the maximum of fl(N) and `t_min` is `t_min`.
-/// - [`after`](crate::traversal::line::after) moves `end` more than 6.9 units beyond T. Without underflow, fl(N) is at
-///   most 1 + 2.1 + 1 units beyond T. So fl(N) <= `end`.
+/// - Callers pass `end` = `after(T)`, which is more than 6.9 units beyond T (see
+///   [`after`](crate::traversal::line::after)). t* is at most 1 unit beyond T, N less than 2.1 units beyond n, and
+///   fl(N) at most 1 unit beyond N. So without underflow, fl(N) <= `end`.
 /// - If fl(N) is subnormal, fl(N) <= `end`, because `after` adds the smallest normal float.
 /// - If fl(N) overflows, `end` and fl(F) are infinite.
 /// - Infinite crossings (d = 0) compare correctly. Undefined crossings are NaN. A NaN leaves the interval unchanged.

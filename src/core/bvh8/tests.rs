@@ -68,7 +68,7 @@ fn the_unit_of_length_does_not_matter() {
     }
 }
 
-/// Ray 5 has a direction component with a finite inverse. The enlarged inverse is infinite.
+/// In ray 5, the inverse of `direction.x` is finite. The product of this inverse and `ENLARGED` is infinite.
 #[test]
 fn packets_leave_alone_what_their_common_bounds_cannot_tell() {
     let mesh = mesh(200, |i| {

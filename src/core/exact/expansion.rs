@@ -90,8 +90,9 @@ impl Expansion {
 
     /// The value of the number, with a relative error of at most 2^-52.
     ///
-    /// The bits of two terms are never adjacent (Shewchuk: Grow-Expansion). So partial sums grow, and their roundings
-    /// add up to at most twice the last one.
+    /// The bits of two terms from `add` are never adjacent (Shewchuk: Grow-Expansion). Each term from `of_integer` is
+    /// at most 2^-53 of the next term. So the magnitudes of the partial sums grow. The rounding errors of the partial
+    /// sums add up to at most twice the error bound of the last sum.
     pub fn approximate(&self) -> f64 {
         self.0.iter().fold(0.0, |sum, term| sum + term)
     }

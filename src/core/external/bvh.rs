@@ -55,7 +55,7 @@ impl BHShape<f32, 3> for TriangleBox {
 
 struct PrunedRay<'a> {
     ray: &'a PreparedRay<f32, 3>,
-    /// Boxes beyond this distance are rejected. The distance is in units of length, not in lengths of the direction.
+    /// Boxes beyond this distance are rejected. The distance is a `t` times the length of the direction times `SLACK`.
     limit: Cell<f32>,
 }
 
@@ -171,8 +171,9 @@ impl<T: TriangleTest> Accel for SvenstaroBvh<T> {
 
 /// The triangle test of the crate `bvh`: Möller-Trumbore with a unit direction and culling of back faces.
 ///
-/// The second winding is tested if the first winding misses. The `t` of a hit is the distance divided by the length of
-/// the direction. The test misses at determinants below [`f32::EPSILON`] and at distances up to [`f32::EPSILON`].
+/// If the ray misses the front face, the triangle is tested again with two corners swapped. The `t` of a hit is the
+/// distance divided by the length of the direction. The test misses if the magnitude of the determinant is below
+/// [`f32::EPSILON`]. The test misses at distances up to [`f32::EPSILON`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SvenstaroTest;
 

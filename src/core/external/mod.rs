@@ -1,6 +1,7 @@
 //! Structures of other projects: the baseline `obvhs` and the peers.
 //!
-//! Each peer has a Cargo feature, for example `peer-bvh`. The Cargo feature `peers` adds all peers.
+//! Each peer has a Cargo feature, for example `peer-bvh`. The Cargo feature `peers` of the crate `sahara` adds all
+//! peers.
 //!
 //! - [`Accel::load`](crate::accel::Accel::load) converts rays to the format of a peer.
 //! - [`Accel::CONVENTIONS`](crate::accel::Accel::CONVENTIONS) lists intended differences from the contract of `Accel`.

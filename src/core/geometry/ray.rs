@@ -69,7 +69,8 @@ impl Ray {
 
     /// Returns the origin and the direction.
     ///
-    /// A conversion from `Vec3` to `Vec3A` would load each component separately.
+    /// Four adjacent fields are loaded with one instruction. A conversion from `Vec3` to `Vec3A` would need several
+    /// instructions.
     #[inline(always)]
     pub(crate) fn vectors(&self) -> (Vec3A, Vec3A) {
         let Self { origin: o, t_min, direction: d, t_max } = *self;

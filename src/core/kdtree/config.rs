@@ -34,7 +34,7 @@ pub struct KdConfig {
     pub equal: Equal,
     /// When the traversal of a ray stops.
     pub exit: Exit,
-    /// Whether each ray has a small hashed mailbox. A triangle in the mailbox of a ray is not tested again.
+    /// Whether each ray has a small hashed mailbox. Blocks whose triangles are all in the mailbox are not tested again.
     pub mailbox: bool,
     /// SAH cost of an inner node. Must be positive.
     pub traversal_cost: f32,

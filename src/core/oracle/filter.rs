@@ -4,10 +4,10 @@
 //! Let u = 2^-53. The inputs are finite `f32` numbers, which `f64` represents exactly.
 //!
 //! *Range.* All bounds in this paragraph are bounds of magnitudes. A component of a vector is 0 or at least 2^-149. A
-//! rounded product of two components is 0 or at least 2^-298. This product has at most 53 significant bits. The
-//! difference of two rounded products is therefore 0 or at least 2^-350. The product of this difference and a third
-//! component is 0 or at least 2^-499. All values are below 2^390. Hence no operation overflows or underflows. Hence
-//! every operation has a relative error of at most u.
+//! rounded product of two components is 0 or at least 2^-298. A rounded product has at most 53 bits, so it is a
+//! multiple of 2^-350. The difference of two rounded products is also such a multiple, so it is 0 or at least 2^-350.
+//! The product of this difference and a third component is 0 or at least 2^-499. All values are below 2^390. So no
+//! operation overflows or underflows, and every operation has a relative error of at most u.
 //!
 //! *Error bound.* A triple product `x . cross(y, z)` is the sum of six terms `x_i y_j z_k`. Rounding multiplies each
 //! term by at most eight factors (1 + e) with |e| <= u. Let P be the sum of the magnitudes of the terms. Let
@@ -28,7 +28,8 @@ use crate::geometry::Ray;
 /// The factor 16u of the proof above.
 const BOUND: f64 = 16.0 / (1u64 << 53) as f64;
 
-/// This factor exceeds the relative error of four roundings, and the error of `ExactT::approximate`.
+/// The factor 8u that widens a span. The relative error of `ExactT::approximate` is below 8u. `quotient` rounds four
+/// times per end of a span, including the widening. The relative errors of these roundings add up to less than 8u.
 const OUTWARD: f64 = 8.0 / (1u64 << 53) as f64;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,7 +84,7 @@ pub fn classify(ray: &Ray, corners: [Vec3; 3]) -> Proof {
         return Proof::Missed;
     }
 
-    // The error bound permits only one rounding of each component of an edge.
+    // Subtract the original corners. Differences of `a`, `b` and `c` would be rounded twice; the proof permits once.
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
     let whole = TripleProduct::of(direction, e1, e2);
     match whole.sign() {

@@ -81,7 +81,8 @@ impl<T: TriangleTest> LeafBlock<T> {
     }
 }
 
-/// Avoids repeated tests of triangles that are in several leaves (Havran 2000).
+/// Up to 8 triangles that a ray already tested (Havran 2000). `search` skips a block if the mailbox contains all
+/// triangles of the block.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mailbox([u32; 8]);
 
@@ -95,7 +96,7 @@ impl Mailbox {
     }
 }
 
-/// `count` is the number of triangles in `blocks`. A `count` above this number affects only `observer`.
+/// `count` must be at least the number of triangles in `blocks`. A larger `count` affects only `observer`.
 #[inline(always)]
 pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Observer>(
     blocks: &'a [LeafBlock<T>],

@@ -25,8 +25,8 @@ pub trait Depth: Copy {
     /// The `t` of the hit, rounded to `f32`. `ray` must be the ray of the hit.
     fn t(&self, ray: &Ray) -> f32;
 
-    /// Whether [`t`](Self::t) needs further computation. If true, the type must implement [`inputs`](Self::inputs) and
-    /// [`ts`](Self::ts).
+    /// Whether the depth stores bounds of `t` instead of `t`. If true, the type must implement
+    /// [`inputs`](Self::inputs) and [`ts`](Self::ts).
     const LATE: bool = false;
 
     /// The inputs of [`ts`](Self::ts) for a hit of `ray`.

@@ -8,8 +8,8 @@ use crate::simd::{Arithmetic, LaneVec3};
 /// and e2 begin at the first corner. E is the sum of the sizes of e1 and e2. |s| is the size of the vector s from the
 /// first corner to the origin. Let det = e1 . (d x e2). Proven properties:
 ///
-/// - If the line meets the triangle and |det| >= 2^-46 D E E, the test finds the intersection. The test compares the
-///   computed `t` with the ends of the interval.
+/// - If the line meets the triangle and |det| >= 2^-46 D E E, the test finds the intersection. The computed `t` decides
+///   whether the intersection lies in the ray's interval.
 /// - No barycentric coordinate of a reported hit is below -2^-46 D E (|s| + 2 E) / |det|.
 /// - The error of `t` is at most 2^-51 E E (|s| + |t| D) / |det|, plus half an ulp for the rounding to `f32`.
 ///
@@ -28,9 +28,9 @@ pub struct MollerTrumboreF64;
 /// Otherwise the test reports no hit. If the exact |det| is at least 2^7 n D E E, the computed |det| exceeds
 /// 80 n D E E.
 ///
-/// Let |e1| and |e2| be the sizes of e1 and e2. The error of h = e2 . (s x e1) is at most 8.1 n |e1| |e2| |s|, less
-/// than 2.1 n E E |s|. The error of det is also at most 7.1 n D |e1| |e2|, less than 1.8 n D E E. Hence the error of
-/// t = h / det is less than 4 n E E (|s| + |t| D) / |det|.
+/// Let |e1| and |e2| be the sizes of e1 and e2. Their product is at most E E / 4. The error of h = e2 . (s x e1) is at
+/// most 8.1 n |e1| |e2| |s|, less than 2.1 n E E |s|. A tighter bound of the error of det is 7.1 n D |e1| |e2|, less
+/// than 1.8 n D E E. Hence the error of t = h / det is less than 4 n E E (|s| + |t| D) / |det|.
 #[inline(always)]
 fn solve<const N: usize, L: Arithmetic<N, Scalar = f64>>(
     origin: LaneVec3<N, L>,

@@ -18,7 +18,7 @@ pub const TRIANGLE_TEST: &str = Exact::NAME;
 /// Width and height of a golden image of a built-in scene.
 pub const SIZE: [u32; 2] = [160, 160];
 
-/// The pixels of these views depend only on the hits.
+/// For a given scene, the pixels of these views depend only on the hits.
 pub const VIEWS: [ViewKind; 4] = [ViewKind::Shaded, ViewKind::Depth, ViewKind::Normal, ViewKind::Primitive];
 
 const REMEDY: &str = "create the golden images with `sahara golden update`";

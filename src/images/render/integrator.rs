@@ -55,7 +55,8 @@ fn trace(scene: &Scene, accel: &dyn DynAccel, mut rays: Vec<Ray>) -> (Vec<Vec3>,
         rays = mirrored;
     }
 
-    // `balance` limits the colour of a mirror ray before the multiplication by the weight.
+    // Add the colours from the last level to the first. `seen` contains the colours of the next level, limited by
+    // `balance`.
     let mut seen: Vec<Vec3> = vec![];
     for mut level in levels.into_iter().rev() {
         for ((parent, weight), colour) in level.mirrors.into_iter().zip(seen) {

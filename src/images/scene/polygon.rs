@@ -4,7 +4,7 @@ use earcut::Earcut;
 use glam::{DVec3, Vec3};
 use robust::{Coord, orient2d};
 
-/// This limit of `Splitter::pairs` bounds the time of ear clipping.
+/// Maximum of `Splitter::pairs`, the pairs of corners that ear clipping may compare. It bounds the time.
 const MOST_PAIRS: usize = 1 << 27;
 const SMALL: usize = 64;
 
@@ -103,8 +103,8 @@ fn is_line(points: &[Point]) -> bool {
     points.iter().all(|&p| area([points[0], other, p]) == 0.0)
 }
 
-/// The polygon must be counterclockwise. A convex polygon has no right turn. The left turns add up to
-/// 360 degrees.
+/// The polygon must be counterclockwise. A convex polygon has no right turn. The left turns of a convex polygon add up
+/// to 360 degrees. Hence exactly one turn leads from a downward edge to an upward edge.
 fn is_convex(points: &[Point]) -> bool {
     let n = points.len();
     let upward = |a: Point, b: Point| b[1] > a[1] || b[1] == a[1] && b[0] > a[0];

@@ -148,7 +148,7 @@ fn another_epoch_has_the_checksum_of_the_first_unless_its_results_differ() {
 #[test]
 fn a_case_of_unknown_cost_takes_as_many_rays_as_its_clock_says_that_it_can() {
     let bench = Bench::default();
-    // For 65,536 rays at 100 ns per ray, `level_by_clock` expects 15.6 ms.
+    // 65,536 rays at 100 ns per ray take 6.55 ms. `level_by_clock` multiplies this time by 19 / 8: 15.6 ms.
     let cases = [
         (100, 0, 16_000_000, 65_536),
         (100, 0, 15_000_000, 16_384),

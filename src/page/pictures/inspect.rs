@@ -59,7 +59,7 @@ pub fn inspector(camera: &CameraRays, pixels: &[usize], which: &str) -> Value {
     })
 }
 
-/// Returns `false` if the structure tests triangles without entering any leaf.
+/// Returns whether the leaf counts are known. A tree without separate leaf nodes counts triangle tests but no leaves.
 fn sees_leaves(structure: &StructureWork) -> bool {
     let any = |number: fn(&Work) -> u64| structure.work.iter().any(|work| number(work) > 0);
     structure.observed.steps && (any(|work| work.counts.leaves) || !any(|work| work.counts.tests))

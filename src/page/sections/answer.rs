@@ -1,4 +1,5 @@
-//! Uses the findings of the studies to answer the open question of the source report.
+//! Uses the findings of the studies to answer the open question of the source report. The source report is a student
+//! report that this project reproduces.
 
 use crate::measure::Estimate;
 use crate::page::document::{Answer, Headline};

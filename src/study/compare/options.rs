@@ -81,7 +81,8 @@ const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 /// An additional structure of the default selection.
 const PACKETS: &str = "sah-hybrid:batch=packets";
 
-/// The default reference structure with `--only` or `--budget none`.
+/// `--only` and `--budget none` add this structure unless `--reference` is given. A chosen obvhs structure with its
+/// default triangle test also prevents the addition.
 const GATE_REFERENCE: &str = "obvhs-bvh2";
 
 /// The value of `-s` that omits all structures except runners.

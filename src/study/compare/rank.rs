@@ -216,7 +216,7 @@ mod tests {
         // The ratio 1.25 compares two structures without packets.
         assert!(sentences[2].contains("exact") && sentences[2].contains("1.25"), "{sentences:?}");
         assert_eq!(findings.last().and_then(|finding| finding.name.as_deref()), Some("fast"));
-        // A wrong hit in scene c excludes `fast`.
+        // Wrong hits in scene c remove `fast` from the ranking of correct structures.
         let mut erring = all.clone();
         erring.iter_mut().filter(|r| r.label == "fast" && r.scene == "c").for_each(|r| {
             (r.mrays_per_s, r.wrong_hits, r.checked_rays) = (None, 2, 9);

@@ -75,7 +75,8 @@ pub fn scene_table(all: &[Measurement], references: &[Reference], refused: &[&St
     let noise = trace_noise(all);
     for reference in references {
         let mean = |label: &String| {
-            // Declined workloads are excluded. Every other workload must have a time.
+            // Declined workloads are excluded. The mean is empty if the structure or the reference has no time on a
+            // remaining workload.
             let own: Vec<&Measurement> = all.iter().filter(|r| r.label == *label).collect();
             let timed: Vec<&Measurement> = own.iter().copied().filter(|r| r.declined.is_none()).collect();
             let pairs = reference.pairs(all, timed.iter().copied());

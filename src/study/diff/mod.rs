@@ -127,8 +127,8 @@ pub struct Wrong {
 }
 
 impl Comparison {
-    /// Compares two runs for which [`unlike`](fn@unlike) returns `Ok`. The intervals are corrected for `looks`
-    /// comparisons.
+    /// Compares two runs for which [`unlike`](fn@unlike) returns `Ok`. The intervals of `structures` are corrected for
+    /// the number of structures and `looks`. The intervals of `cells` are not corrected.
     pub fn new(old: &Side, new: &Side, threshold_percent: Option<f64>, looks: usize) -> Self {
         let machines = other_machine(&old.provenance, &new.provenance);
         let (old, new) = (&old.all[..], &new.all[..]);

@@ -56,7 +56,7 @@ fn what_the_first_epoch_found_wrong_has_no_time_anywhere() {
     let one = &cases[0].structures[0].rays[0];
     assert!(one.ns.is_empty() && one.wrong && one.untimed.as_deref() == Some("3 wrong hits on 9 rays"));
     assert_eq!(cases[0].structures[1], given[0].structures[1]);
-    // With `whole`, the scene is left out.
+    // `whole` drops a scene if one of its structures has no time.
     let (cases, JoinedEpochs { failures, .. }) = joined_as(given, true);
     assert!(cases.is_empty() && failures[0].is_wrong_hit(), "{failures:?}");
 }

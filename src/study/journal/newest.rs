@@ -52,7 +52,7 @@ fn dataset(files: &[CaseFile]) -> Dataset {
             None => newest.push(file),
         }
     }
-    // Drop epochs whose structures or settings differ from the newest file of the scene.
+    // Drop epochs whose structures or build limit differ from the newest file of the scene.
     let last = |file: &CaseFile| {
         let own = newest.iter().filter(|other| other.case.is_of_scene(&file.case));
         own.max_by(|a, b| a.provenance.date.cmp(&b.provenance.date))

@@ -25,7 +25,7 @@ pub fn declined(accel: &dyn DynAccel, workload: &Workload) -> Option<&'static st
 const MOST: usize = 1 << 13;
 const FEWEST: usize = 1 << 6;
 
-/// The result must be equal in every run.
+/// The number of rays to check. Without a time limit, every run must check the same number of rays.
 fn affordable(rays: usize, triangles: usize, tests: usize) -> usize {
     if rays <= FEWEST {
         return rays;

@@ -15,7 +15,7 @@ const FEW: usize = 512;
 const FEWEST: usize = 32;
 const FEW_TESTS: u64 = 1 << 20;
 
-/// The number of rays depends on no clock, so every run counts the same rays.
+/// The number of rays depends on the triangle tests of a pilot, not on time. Every run counts the same rays.
 pub fn affordable(accel: &dyn DynAccel, rays: &[Ray], query: Query) -> RayCounts {
     let counted = |count: usize| all(accel, &spread(rays, count), query);
     let pilot = counted(64);

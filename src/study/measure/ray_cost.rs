@@ -26,7 +26,7 @@ const BLOCK_NS: f64 = 8.0;
 /// The slowdown factor if the crate is compiled without optimisation.
 const UNOPTIMISED: f64 = if cfg!(debug_assertions) { 12.0 } else { 1.0 };
 
-/// Assumed steps per ray if no tree counts its steps.
+/// Assumed steps per ray if the workload has no predicted case.
 const STEPS: f64 = 12.0;
 
 /// Predicted picoseconds per ray, one value per case.

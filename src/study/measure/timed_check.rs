@@ -1,4 +1,7 @@
-//! Compares the hits of a structure on all timed rays with the hits of another tree.
+//! Compares the hits of a structure on its timed rays with the hits of another tree.
+//!
+//! If the tree uses the structure's triangle test, equal checksums of the hits in epoch 0 end the check. The timed rays
+//! of later epochs are then not compared.
 //!
 //! If the structure and the tree disagree on rays, brute force judges some of these rays.
 
@@ -36,7 +39,7 @@ struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
     tree: Reference,
-    /// Brute force with the triangle test of the checked structure, or with `exact`.
+    /// Brute force with the triangle test of the checked structure. `exact` replaces an unknown or slow test.
     judge: Reference,
     /// Hits of the tree, indexed by workload and ray. The outer `Option` is `None` if the ray is not traced yet.
     hits: Vec<Vec<Option<Option<Hit>>>>,

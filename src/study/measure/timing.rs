@@ -12,7 +12,7 @@ use crate::measure::{
 use crate::registry::Choice;
 use crate::scene::Workload;
 
-/// A sample may take this multiple of its time budget.
+/// A sample of a structure without a runner may take this multiple of `Allotment::share_ns`.
 const SLACK: u64 = 8;
 
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,7 +38,7 @@ pub struct Timing<'a> {
 }
 
 impl Timing<'_> {
-    /// A failed build must not change the numbers of rays of other cases.
+    /// Allots rays to every case, even if the structure of the case was not built.
     pub fn allot(&self, plan: &SamplePlan) -> Allotment {
         // A structure and its twin have the same label. The twin must get as many rays as the structure.
         let label = |case: &Pair| (case.workload, &self.choices[case.structure].label);
@@ -110,7 +110,7 @@ struct TimedRays {
     is_by_clock: bool,
 }
 
-/// Returns empty samples of `case`. Each part covers the rays of a slower case on the same workload.
+/// Returns empty samples of `case`. Each part covers the rays of another case with fewer rays.
 fn empty_samples(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     let own = Samples::none(case.all, case.level);
     let mut fewer = vec![];

@@ -1,4 +1,4 @@
-//! Findings about the reproduction of the source report.
+//! Findings about the reproduction of the source report (a student report).
 
 use super::original::{CROWDED, DEFAULT, MAIN};
 use super::replication::{BRUTE, Replicated, mean};

@@ -1,7 +1,7 @@
-//! `replicate` reproduces the tables and tests the conclusion of the source report.
+//! `replicate` reproduces the tables and tests the conclusion of the source report, a student report.
 //!
-//! The source report used another machine, so only ratios of seconds are comparable. `t'` is seconds / (rays x
-//! triangles).
+//! The source report used another machine, so only ratios of seconds are comparable. One of the tables shows `t'`,
+//! which is seconds / (rays x triangles).
 
 mod findings;
 mod original;

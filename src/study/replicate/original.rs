@@ -1,4 +1,4 @@
-//! The numbers in the source report.
+//! The numbers in the source report, a student report that this project reproduces.
 //!
 //! Each duration in the report is from a single run.
 

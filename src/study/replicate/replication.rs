@@ -1,4 +1,4 @@
-//! The measurements of the scenes in the source report.
+//! The measurements of the scenes in the source report, a student report that this project reproduces.
 
 use super::original::{DEFAULT, HARD, MAIN, Row};
 use crate::accel::Query;

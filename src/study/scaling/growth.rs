@@ -113,8 +113,8 @@ fn growth(family: &'static str, points: Vec<Point>, [trace, build]: &[AaNoise; 2
     }
 }
 
-/// Returns the slope of `value` over ln(triangles). `value` returns one logarithm per epoch. `noise` returns the A/A
-/// variance of a sum with the given weights.
+/// Returns the slope of `value` over ln(triangles). `value` returns the logarithm of a time for each epoch, or one
+/// logarithm of a count or size. `noise` returns the A/A variance of a sum with the given weights.
 fn power(
     points: &[&Point],
     value: &dyn Fn(&Measurement) -> Option<Vec<f64>>,

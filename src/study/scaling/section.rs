@@ -57,7 +57,7 @@ pub fn findings(growths: &[Growth]) -> Vec<Finding> {
     let sentence = format!("On spheres of n triangles the time of a primary ray grows like {}.", listed(&powers));
     let first = both.iter().find_map(|(_, growth)| growth.as_ref()?.time);
     let spheres = first.map(|power| Finding::new("spheres", sentence).with_value(power));
-    // A claim is judged only if a sphere has at least `LEVEL_8` triangles.
+    // The claims are about spheres up to level 8. Without a sphere of that size, the finding is left out.
     let claimed = both.iter().filter_map(|(key, growth)| {
         let growth = growth.filter(|growth| growth.points.iter().any(|point| point.triangles() >= LEVEL_8))?;
         Some(Finding::number(*key, growth.time_to_level_8?))

@@ -149,8 +149,8 @@ impl Content for Binned {
         let sample = Sample::new(&part.references, context.config.sample);
         let mut found = cheapest(context, part, &sample, state);
         if sample.len() < part.references.len() {
-            // The counts from a sample are estimates. If the exact counts exceed the budget, search again with all
-            // references.
+            // The counts from a sample are estimates. If `found` is `None`, or the exact counts exceed the budget,
+            // search again with all references.
             let affords = |cut: Cut| {
                 let [below, above] = cut.counts(&part.references);
                 state.affords(below, above)

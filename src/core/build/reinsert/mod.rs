@@ -17,8 +17,8 @@ use crate::build::binary_tree::BinaryTree;
 use links::Links;
 use search::Search;
 
-/// Number of nodes in the first batch of a pass. Later batches are larger because moves of small boxes rarely affect
-/// other moves.
+/// Number of nodes in the first batch of a pass. Each later batch has as many nodes as all earlier batches together.
+/// Batches can grow because moves of small boxes rarely affect other moves.
 const BATCH: usize = 64;
 
 /// The first pass processes this share of all nodes, in descending order of box area. Pass `k` processes the first

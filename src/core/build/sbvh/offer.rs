@@ -31,7 +31,7 @@ impl<'a> Context<'a> {
     }
 
     /// The cost of a leaf, for comparison with the cost of a split. The cost of a leaf of one block in a large box
-    /// includes a traversal step. The cost of a split also includes a traversal step.
+    /// includes a traversal step. This step cancels the traversal step of the split node.
     pub fn unsplit_cost(&self, area: f64, count: usize) -> f64 {
         let leaf = self.costs.box_leaf(area, count);
         if count <= BLOCK && self.is_large(area) { self.costs.box_node(area, leaf) } else { leaf }

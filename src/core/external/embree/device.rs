@@ -83,8 +83,8 @@ impl Scene {
     /// Embree allocates, pads and aligns the buffers.
     fn attach(&self, mesh: &Mesh, ids: &[u32], quality: c_int) -> Result<(), BuildError> {
         let (api, positions) = (self.api, mesh.positions());
-        // SAFETY: the code has checked both buffers for null. `vertices` has space for all `positions`. `indices` has
-        // space for one triangle per id. The scene keeps a reference to the attached geometry.
+        // SAFETY: the null check precedes all writes to the buffers. `vertices` has space for all `positions`.
+        // `indices` has space for one triangle per id. The scene keeps a reference to the attached geometry.
         unsafe {
             let geometry = (api.new_geometry)(self.device, TRIANGLES);
             let vertices: *mut Vec3 = (api.new_buffer)(geometry, VERTICES, 0, FLOAT3, 12, positions.len()).cast();

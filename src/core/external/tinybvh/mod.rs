@@ -65,7 +65,7 @@ impl Prepare for TinyBvh {
         let unit = ray.direction * (1.0 / length);
         let inverse = Vec3::from_array(unit.to_array().map(inverse));
         let end = ((t_max - t_min) * length).min(FAR);
-        // tinybvh adds the same terms in the same order. tinybvh exits the process if the sum is NaN.
+        // tinybvh computes the sum `checked` in this order. tinybvh exits the process if the sum is NaN.
         //
         // If `unit` or `origin * inverse` overflows, tinybvh may read outside its arrays.
         let checked = unit.x + unit.y + unit.z + end + origin.x + origin.y + origin.z;
@@ -104,8 +104,9 @@ const STACK: usize = 256;
 
 /// The shape of the tree, and an upper bound on the number of entries in the stacks of `BVH8_CPU`.
 ///
-/// A node with n children, m of them inner, adds at most max(n, 2 m) - 1 entries to a stack. The bound includes eight
-/// more entries, because the traversal writes eight entries at once.
+/// At a node with n children, m of them inner, the traversal pushes at most n entries. The conversion to `BVH8_CPU`
+/// pushes 2 m entries. One entry is popped before a child is visited, so at most max(n, 2 m) - 1 entries remain. The
+/// bound includes eight more entries, because the traversal writes eight entries at once.
 fn shape(nodes: &[mbvh::Node]) -> (TreeShape, usize) {
     let (mut shape, mut most) = (TreeShape::default(), 0);
     let mut stack = vec![(0, 0, 0)];

@@ -149,7 +149,7 @@ pub(super) fn place_in_axis_plane(ray: &Ray, [a, b, c]: &[Vec3; 3]) -> Option<Bo
 
 /// Bounds the exact `t` in each lane. The line in a lane must meet the triangle in this lane.
 ///
-/// `width` is the distance between the bounds of `t` from `filter.rs`, or infinity.
+/// `width` is the distance between the bounds of `t` from `filter.rs`. Without these bounds, `width` must be infinite.
 ///
 /// **Bounds.** Let n = 2^-53. In the notation of `filter_block`, the error of h is less than 8.1 n P |s|. The error of
 /// det is less than 21.3 n D P. `filter_block` allows an error of 10 w P |s| in h, with w = 2^-24. `filter_block`

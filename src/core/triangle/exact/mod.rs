@@ -63,7 +63,7 @@ impl TriangleTest for Exact {
         FilterBlock::new(triangles)
     }
 
-    /// The exact `t` of a hit may lie between `t_max` and the next smaller float.
+    /// Returns `t_max`, because the exact `t` of a hit may lie between the largest float below `t_max` and `t_max`.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
         t_max

@@ -5,8 +5,8 @@ use std::marker::PhantomData;
 use super::*;
 use crate::simd::{EightLanes, Kernel, LaneVec3, Level, dispatch, each};
 
-/// The first output counts the hits from `hit`. The second output counts the hits from `meet_eight`. Neither output
-/// counts hits at a `t` of `to` or more.
+/// The first output counts the hits from `hit`. The second output counts the hits from `meet_eight`. A hit
+/// counts only if its `t` is below the third field.
 struct Eight<'a, T>(&'a [Ray; 8], &'a [[Vec3; 3]], f32, PhantomData<T>);
 
 impl<T: TriangleTest> Kernel for Eight<'_, T> {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::simd::{Level, Portable};
 
-/// Products of three lengths of 2^-51 underflow. Products of two lengths of 2^-51 do not underflow.
+/// `unit` is so small that products of three lengths underflow, but products of two lengths do not.
 #[test]
 fn hits_where_only_the_height_underflows_are_found() {
     let unit = libm::exp2f(-51.0);

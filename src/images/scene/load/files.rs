@@ -20,7 +20,7 @@ pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
     below.map(|below| folder.join(below))
 }
 
-/// Accepts only regular files, because a pipe or a device might never end.
+/// Accepts only regular files, because reading a pipe or a device may block.
 pub(super) fn read_start(path: &Path, longest: u64) -> io::Result<Vec<u8>> {
     let file = fs::metadata(path)?;
     if !file.is_file() {

@@ -25,8 +25,8 @@ pub use error::LoadError;
 /// [`Model::notes`] reports ignored and replaced parts of the file. The model has at least one material and one
 /// triangle. [`Mesh::new`] accepts the positions and triangles of the model.
 ///
-/// A reference whose path leads outside the folder of `path` is not followed. A symbolic link in the folder may lead
-/// outside.
+/// A reference whose path leads outside the folder of `path` is not followed. Symbolic links in the folder are
+/// followed, even to files outside the folder.
 ///
 /// # Errors
 /// The causes are:

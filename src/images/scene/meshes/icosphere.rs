@@ -7,7 +7,8 @@ use glam::DVec3;
 use super::{flat, smooth};
 use crate::scene::Model;
 
-/// Truncated coordinates are needed to reproduce the ray counts of the source report.
+/// The coordinates are slightly inexact to reproduce the ray counts of the source report. The source report is a
+/// student report that this project reproduces.
 fn corners() -> Vec<DVec3> {
     const HEIGHT: f64 = 0.447215;
     let lower = [[0.7236, 0.52572], [-0.276385, 0.85064], [-0.894425, 0.0], [-0.276385, -0.85064], [0.7236, -0.52572]];

@@ -186,7 +186,7 @@ impl Contents {
         self.corners_in_model += self.corners.len();
         self.to_tobj.push_back(b'f');
         for &[vertex, normal] in &self.corners {
-            // Replace a missing normal, because tobj would take the normal of another corner.
+            // Replace a missing normal index. Without the index, tobj may use a normal that `add_use` has not recorded.
             let normal = normal.max(1);
             self.vertices.add_use(vertex, self.models);
             self.normals.add_use(normal, self.models);
@@ -196,8 +196,8 @@ impl Contents {
         Ok(())
     }
 
-    /// Returns absolute indices, because tobj receives all vectors before the first face. tobj panics on some invalid
-    /// indices of normals.
+    /// Returns absolute indices, because tobj receives all vectors before the first face. The function rejects invalid
+    /// indices, because tobj panics on some invalid indices of normals.
     fn corner(&self, word: &[u8]) -> Result<[u32; 2], String> {
         let mut parts = word.split(|&b| b == b'/');
         let vertex = self.vertices.index(parts.next().unwrap_or_default(), "vertex")?;

@@ -115,7 +115,8 @@ pub(super) type Next = Option<(usize, f64)>;
 impl Element {
     pub fn read(&self, rows: &mut &[u8], mut take: impl FnMut(Next) -> Result<(), String>) -> Result<(), Fault> {
         let Self { name, count, properties, encoding } = self;
-        // Each number takes at least one byte. The last line may lack its line break.
+        // Each number takes at least one byte. A text row without properties takes one line break. The last line may
+        // lack its line break.
         if count.saturating_mul(properties.len().max(1)) > rows.len() + 1 {
             let problem = format!("the header declares {count} rows for {} bytes: the file is truncated", rows.len());
             return Err(Fault::part(format!("element {name}"), problem));

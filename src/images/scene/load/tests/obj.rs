@@ -227,7 +227,7 @@ fn vertices_are_the_same_in_all_parts_of_a_large_file() {
     }
     let model = obj(&text);
     assert_eq!(model.positions, positions);
-    // `model.normals[0]` is a placeholder for flat faces.
+    // `model.normals[0]` is `vn 5 5 5`: the loader replaces missing normal indices by 1.
     assert_eq!(model.normals[1..], normals[..SIDE as usize - 1]);
     assert!(model.triangles == triangles && model.normal_indices == normal_indices && model.material_of == material_of);
 }

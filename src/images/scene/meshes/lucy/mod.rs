@@ -11,7 +11,7 @@ use super::sdf::{Blend, Sdf, rounded_intersection, split_to};
 use crate::geometry::Aabb;
 use crate::scene::Model;
 
-/// The triangle count of the statue in the source report.
+/// The triangle count of the statue in the source report, a student report that this project reproduces.
 const TRIANGLES: usize = 275_690;
 
 const BOUNDS: Aabb = Aabb { min: Vec3::new(-6.74, 0.0, -3.87), max: Vec3::new(6.74, 23.15, 3.87) };

@@ -84,7 +84,7 @@ pub fn grounds(patches: &mut Patches) {
         }
     }
 
-    // The ground around the building is lower than the court.
+    // Brick blocks surround the walks. The ground under the blocks is lower than the court's floor.
     patches.of(&material("brick", [0.93, 0.84, 0.72]));
     let (near, far) = (middle - half_width - WALK - 1.0, middle + half_width + WALK + 1.0);
     let (left, right) = (from - 1.0, to + 1.0);

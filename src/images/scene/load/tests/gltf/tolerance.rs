@@ -1,4 +1,4 @@
-//! Tests valid glTF files that the crate `gltf` would reject.
+//! Tests that the loader accepts faults in the parts of a glTF file that it does not use.
 
 use serde_json::{Value, json};
 
