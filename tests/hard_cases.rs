@@ -14,7 +14,7 @@ const RAYS: usize = 200;
 const FEW: usize = 10;
 const LABORIOUS: [&str; 3] = ["duplicates_20000", "fan_apex", "far_1e8"];
 
-/// Triangle tests that must have no `strict_errors` on the moderate and extreme cases.
+/// Triangle tests that must have no errors on the moderate and extreme cases.
 const IN_F64: [&str; 2] = ["moller-trumbore-f64", "edge-f64"];
 
 /// Structures with the traversal of `sah-hybrid`. These structures run only with the triangle tests in `FEW_TESTS`.
@@ -43,7 +43,7 @@ fn fault(case: &HardCase, rays: usize, truth: &mut CaseTruth, choice: &Choice) -
     };
     let score = truth.score(test, answers).unwrap();
     let is_wrong = score.rays().is_some_and(|rays| {
-        test == "exact" && rays.inexact > 0 || IN_F64.contains(&test) && ranked && rays.strict_errors.errors() > 0
+        test == "exact" && rays.inexact > 0 || IN_F64.contains(&test) && ranked && rays.error_counts.errors() > 0
     });
     (is_wrong || !score.is_sound()).then(|| format!("{} on {}: {score:?}", choice.label, case.name))
 }

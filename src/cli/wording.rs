@@ -147,7 +147,7 @@ fn helps_fit_a_screen_and_no_text_has_a_phrase_that_the_glossary_replaces() {
 
     let phrases = not_used();
     let mut used = vec![];
-    for (texts, least) in [(helps, 40), (messages, 2000), (prose, 3000), (documents, 10)] {
+    for (texts, least) in [(helps, 40), (messages, 2000), (prose, 4000), (documents, 10)] {
         assert!(texts.len() > least, "{} texts, not more than {least}", texts.len());
         for (place, text) in texts {
             let doc = text.strip_prefix("///").or(text.strip_prefix("//!")).unwrap_or_default();

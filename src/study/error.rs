@@ -44,7 +44,7 @@ pub enum StudyError {
 }
 
 /// The value of `what` in [`StudyError::EpochsDiffer`] if two epochs return different hits.
-pub const HITS_DIFFER: &str = "the hits";
+pub const HITS: &str = "the hits";
 
 fn workload(rays: &str) -> String {
     if rays.is_empty() { String::new() } else { format!(", {rays} rays") }
@@ -71,7 +71,7 @@ impl StudyError {
     pub fn is_wrong_hit(&self) -> bool {
         matches!(
             self,
-            Self::EpochsDiffer { what: HITS_DIFFER, .. }
+            Self::EpochsDiffer { what: HITS, .. }
                 | Self::Disagree { .. }
                 | Self::Missing { wrong: true, .. }
                 | Self::Reported { wrong_answer: true, .. }

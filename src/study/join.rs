@@ -3,7 +3,7 @@
 //! Only epoch 0 checks hits. So a scene without epoch 0 is left out.
 
 use super::epoch::Rays;
-use super::error::HITS_DIFFER;
+use super::error::HITS;
 use super::{Epoch, Measured, StudyError};
 use crate::registry::RUNNER;
 use crate::report::words::listed;
@@ -103,7 +103,7 @@ fn make_consistent(epochs: &mut [&mut Epoch]) -> Result<(), StudyError> {
             }
             if let Some(other) = differing(|a, b| a.checksum == b.checksum) {
                 if !structure.may_err() {
-                    return apart(other, &first.workload, HITS_DIFFER);
+                    return apart(other, &first.workload, HITS);
                 }
                 refuse(epochs, place, CHANGED);
                 break;

@@ -37,11 +37,11 @@ type Options = Measuring<8, 3, 5>;
 
 /// Secondary rays start at the hits of this structure. The triangle test of this structure is in single precision, as
 /// in the source report.
-const GUIDE: &str = "sah-kd:test=moller-trumbore";
+const SECONDARY_RAY_STRUCTURE: &str = "sah-kd:test=moller-trumbore";
 
 fn plan(matches: &ArgMatches, registry: &Registry) -> anyhow::Result<Plan> {
     let measuring = Options::from_arg_matches(matches)?;
-    let secondary_ray_structure = registry.choose(GUIDE)?.label;
+    let secondary_ray_structure = registry.choose(SECONDARY_RAY_STRUCTURE)?.label;
     let settings = Settings { whole: true, secondary_ray_structure, ..Settings::new(&measuring, registry)? };
     let rows: Vec<&Row> = MAIN.iter().chain(&HARD).collect();
     let scenes = Scenes::default().read(registry, &rows.iter().map(|row| row.scene).collect::<Vec<_>>())?;

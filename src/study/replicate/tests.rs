@@ -152,5 +152,5 @@ fn every_scene_has_a_twin_and_what_is_counted_is_named_as_its_structures_are() {
         let expected = if is_crowded { vec![spec("100 / 0.7"), spec("50 / 0.7")] } else { vec![] };
         assert_eq!(case.settings.whole_counts, expected);
     }
-    assert_eq!(registry.choose(GUIDE).unwrap().label, GUIDE);
+    assert_eq!(registry.choose(SECONDARY_RAY_STRUCTURE).unwrap().label, SECONDARY_RAY_STRUCTURE);
 }

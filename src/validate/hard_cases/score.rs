@@ -42,7 +42,7 @@ pub enum Failure {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayScore {
     /// Differences from the exact hits, counted by [`DepthRule::STRICT`].
-    pub strict_errors: ErrorCounts,
+    pub error_counts: ErrorCounts,
     /// The number of hits whose depth [`DepthRule::COARSE`] rejects.
     pub coarse_depth: u64,
     /// The result of the comparison with brute force.
@@ -106,7 +106,7 @@ impl CaseTruth {
             (truth, hit) => truth.is_some() != hit.is_some(),
         });
         Ok(Score::Rays(Box::new(RayScore {
-            strict_errors: count_errors(truths, &answers.hits, DepthRule::STRICT),
+            error_counts: count_errors(truths, &answers.hits, DepthRule::STRICT),
             coarse_depth: count_errors(truths, &answers.hits, DepthRule::COARSE).wrong_depth,
             inexact: inexact.count() as u64,
             validation,
@@ -130,7 +130,7 @@ impl Score {
     /// Whether the structure completes the case without errors. Triangle-test errors count as errors.
     pub fn is_clean(&self) -> bool {
         match self {
-            Self::Rays(score) => score.strict_errors.errors() == 0 && score.is_sound(),
+            Self::Rays(score) => score.error_counts.errors() == 0 && score.is_sound(),
             Self::Property(property) => property.broken == 0,
             Self::Failed(_) => false,
         }

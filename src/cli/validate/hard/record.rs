@@ -9,7 +9,7 @@ use crate::validate::{ErrorCounts, Kind};
 
 pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
     let rays = score.rays();
-    let strict_errors = |number: fn(&ErrorCounts) -> u64| rays.map(|rays| number(&rays.strict_errors));
+    let count = |number: fn(&ErrorCounts) -> u64| rays.map(|rays| number(&rays.error_counts));
     json!({
         "number": case.number,
         "case": case.name,
@@ -22,20 +22,20 @@ pub fn record(case: &HardCase, choice: &Choice, score: &Score) -> Value {
             _ => "answered",
         },
         "clean": score.is_clean(),
-        "rays": strict_errors(|own| own.rays),
-        "hits": strict_errors(|own| own.hits),
-        "missed": strict_errors(|own| own.missed),
-        "false_hits": strict_errors(|own| own.false_hits),
+        "rays": count(|own| own.rays),
+        "hits": count(|own| own.hits),
+        "missed": count(|own| own.missed),
+        "false_hits": count(|own| own.false_hits),
         // A wrong depth has an error above 4 ulps and a relative error above 1e-6.
-        "wrong_depth": strict_errors(|own| own.wrong_depth),
+        "wrong_depth": count(|own| own.wrong_depth),
         // A coarse depth has an error above 1 %, or above 0.1 % on a wrong primitive.
         "coarse_depth": rays.map(|rays| rays.coarse_depth),
-        "wrong_primitive": strict_errors(|own| own.wrong_primitive),
+        "wrong_primitive": count(|own| own.wrong_primitive),
         "structure_errors": rays.filter(|rays| rays.knows_structure_errors).map(|rays| rays.validation.structure_errors),
         "verdict": verdict(score),
         "contradictions": rays.map(|rays| rays.contradictions),
         "inexact": rays.map(|rays| rays.inexact),
-        "ulps": rays.and_then(|rays| rays.strict_errors.ulps),
+        "ulps": rays.and_then(|rays| rays.error_counts.ulps),
         "slowness": rays.and_then(|rays| rays.slowness),
         "build_ns": rays.map(|rays| rays.build_ns),
         "property": match score {

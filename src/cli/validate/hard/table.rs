@@ -27,7 +27,7 @@ pub const LEGEND: [&str; 4] = [
 pub fn tables(cases: &[&HardCase], columns: &[Column]) -> Vec<Table> {
     let is_property = |case: &HardCase| matches!(case.content, Content::Property(_));
     let ulps = |_: &HardCase, score: &Score| {
-        let ulps = score.rays()?.strict_errors.ulps?;
+        let ulps = score.rays()?.error_counts.ulps?;
         Some([ulps.median, ulps.p99, ulps.max].map(figures).join("/").into())
     };
     let slowness = |_: &HardCase, score: &Score| Some(format!("{} x", figures(score.rays()?.slowness?)).into());
@@ -101,14 +101,14 @@ fn outcome(score: &Score) -> Cell {
 }
 
 fn errors(score: &RayScore) -> String {
-    let strict_errors = &score.strict_errors;
+    let error_counts = &score.error_counts;
     let share = |mark: &str, events: u64, of: u64| (events > 0).then(|| format!("{mark} {}", percent(events, of)));
-    let coarse = percent(score.coarse_depth, strict_errors.hits);
+    let coarse = percent(score.coarse_depth, error_counts.hits);
     let parts = [
-        share("m", strict_errors.missed, strict_errors.hits),
-        share("f", strict_errors.false_hits, strict_errors.rays),
-        share("d", strict_errors.wrong_depth, strict_errors.hits).map(|d| format!("{d}/{coarse}")),
-        share("S", score.validation.errors(), strict_errors.hits),
+        share("m", error_counts.missed, error_counts.hits),
+        share("f", error_counts.false_hits, error_counts.rays),
+        share("d", error_counts.wrong_depth, error_counts.hits).map(|d| format!("{d}/{coarse}")),
+        share("S", score.validation.errors(), error_counts.hits),
         (score.contradictions > 0).then(|| format!("c {}", count(score.contradictions))),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
@@ -139,16 +139,16 @@ fn totals(cases: &[&HardCase], columns: &[Column]) -> Table {
             let clean = scores.iter().filter(|score| score.is_clean()).count();
             let failed = scores.iter().filter(|score| matches!(score, Score::Failed(_))).count();
             let sum = |number: fn(&RayScore) -> u64| scores.iter().filter_map(|score| score.rays()).map(number).sum();
-            let hits = sum(|score| score.strict_errors.hits);
+            let hits = sum(|score| score.error_counts.hits);
             most_hits = most_hits.max(hits);
             let texts = [
                 if failed > 0 { format!("{clean} (+{failed})") } else { clean.to_string() },
-                percent(sum(|score| score.strict_errors.missed), hits),
-                percent(sum(|score| score.strict_errors.wrong_depth), hits),
+                percent(sum(|score| score.error_counts.missed), hits),
+                percent(sum(|score| score.error_counts.wrong_depth), hits),
                 percent(sum(|score| score.coarse_depth), hits),
-                count(sum(|score| score.strict_errors.false_hits)),
+                count(sum(|score| score.error_counts.false_hits)),
                 percent(sum(|score| score.validation.errors()), hits),
-                percent(sum(|score| score.strict_errors.errors()), sum(|score| score.strict_errors.rays)),
+                percent(sum(|score| score.error_counts.errors()), sum(|score| score.error_counts.rays)),
             ];
             row.extend(texts.map(Cell::from));
         }
