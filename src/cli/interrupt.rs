@@ -32,7 +32,7 @@ pub fn watch() {
                 if !may_stop || ASKED.swap(true, Ordering::SeqCst) {
                     end_by(signal, signals);
                 }
-                crate::output::print_message(format_args!("\nStopping; press Ctrl-C again to quit now."));
+                crate::output::print_to_stderr(format_args!("\nStopping; press Ctrl-C again to quit now."));
                 crate::study::process::end();
             }
         });

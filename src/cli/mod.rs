@@ -239,7 +239,7 @@ fn run_with(suite: &Suite, args: impl IntoIterator<Item = OsString>, starts_proc
     let found = if may_panic { Ok(run()) } else { catch_unwind(AssertUnwindSafe(run)) };
     interrupt::wait_for_end();
     exit_status::of(found.unwrap_or_else(|_| {
-        panics::uncaught().iter().for_each(crate::output::print_message);
+        panics::uncaught().iter().for_each(crate::output::print_to_stderr);
         Err(anyhow::anyhow!(PANIC))
     }))
 }
@@ -265,7 +265,7 @@ fn measure_case(
         return Ok(Status::Right);
     }
     if let Some(why) = measure_into(case, out, &suite.registry, &watch, &mut OnTerminal::new(terminal, true))? {
-        crate::output::print_message(format_args!("{} {why}", out.escaped()));
+        crate::output::print_to_stderr(format_args!("{} {why}", out.escaped()));
     }
     Ok(Status::Right)
 }

@@ -48,9 +48,9 @@ impl LogLines {
         Self { last: (!terminal.quiet && !io::stderr().is_terminal()).then(Instant::now) }
     }
 
-    pub fn print(&mut self, line: impl Display) {
+    pub fn print_if_due(&mut self, line: impl Display) {
         if self.last.is_some_and(|last| last.elapsed() >= Self::PAUSE) {
-            crate::output::print_message(line);
+            crate::output::print_to_stderr(line);
             self.last = Some(Instant::now());
         }
     }
@@ -82,7 +82,7 @@ impl<'a> OnTerminal<'a> {
 
     fn log(&mut self, text: &str) {
         let percent = 100 * self.bar.position() / self.bar.length().unwrap_or(0).max(1);
-        self.log.print(format_args!("{percent} %: {text}"));
+        self.log.print_if_due(format_args!("{percent} %: {text}"));
     }
 }
 
@@ -143,7 +143,7 @@ impl Screen for OnTerminal<'_> {
     fn warn(&mut self, warnings: &[String]) {
         for warning in warnings {
             if !self.terminal.quiet && !self.warned.contains(warning) {
-                self.bar.suspend(|| crate::output::print_message(format_args!("warning: {warning}")));
+                self.bar.suspend(|| crate::output::print_to_stderr(format_args!("warning: {warning}")));
                 self.warned.push(warning.clone());
             }
         }

@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use comfy_table::Table as Probe;
 
 use crate::escaped::Escaped as _;
-use crate::output::{self, print_message, stdout_is_taken};
+use crate::output::{self, print_to_stderr, stdout_is_taken};
 use crate::report::number::plural;
 use crate::report::{Screen, Table, terminal, wrapped};
 
@@ -63,7 +63,7 @@ impl Terminal {
 
     pub fn print_message(&self, sentence: &str) {
         if !self.quiet {
-            print_message(sentence);
+            print_to_stderr(sentence);
         }
     }
 

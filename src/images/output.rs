@@ -262,10 +262,10 @@ fn unless_gone(written: io::Result<()>) -> io::Result<()> {
 
 /// Prints the error on one line. Control characters in the text are escaped.
 pub fn print_error(error: impl Display) {
-    print_message(format_args!("error: {}", error.to_string().escaped()));
+    print_to_stderr(format_args!("error: {}", error.to_string().escaped()));
 }
 
-pub fn print_message(line: impl Display) {
+pub fn print_to_stderr(line: impl Display) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 

@@ -67,7 +67,7 @@ pub fn measure_apart(
         let line = line.map_err(|cause| failure(cause.to_string()))?;
         let line = String::from_utf8_lossy(&line);
         let Some((own, message)) = line.split_once(MARK) else {
-            crate::output::print_message(&line);
+            crate::output::print_to_stderr(&line);
             continue;
         };
         let _ = write!(io::stderr(), "{own}");

@@ -13,7 +13,7 @@ use crate::grid::{Grid, GridConfig};
 pub struct Broken {
     grid: Grid<MollerTrumbore>,
     fault: Fault,
-    queries: AtomicU32,
+    hits: AtomicU32,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -65,7 +65,7 @@ impl Accel for Broken {
             Fault::BuilderHangs if !mesh.is_empty() => forever(),
             _ => {}
         }
-        Ok(Self { grid: Grid::build(mesh, &GridConfig::default())?, fault: config.fault, queries: AtomicU32::new(0) })
+        Ok(Self { grid: Grid::build(mesh, &GridConfig::default())?, fault: config.fault, hits: AtomicU32::new(0) })
     }
 
     fn closest_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> Option<Hit> {
@@ -76,7 +76,7 @@ impl Accel for Broken {
             Fault::Late => hit.map(|hit| Hit { t: hit.t.next_up().next_up().next_up(), ..hit }),
             Fault::Panics if picks(ray, 500) => panic!("an index out of bounds, say"),
             Fault::Hangs if picks(ray, 500) => forever(),
-            Fault::Moody => hit.filter(|_| !self.queries.fetch_add(1, Ordering::Relaxed).is_multiple_of(500)),
+            Fault::Moody => hit.filter(|_| !self.hits.fetch_add(1, Ordering::Relaxed).is_multiple_of(500)),
             _ => hit,
         }
     }

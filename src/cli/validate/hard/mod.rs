@@ -46,7 +46,7 @@ pub fn run(registry: &Registry, args: &Args, named: &[String], terminal: &Termin
     let mut records = vec![];
     for (i, case) in cases.iter().enumerate() {
         let message = format!("{} of {}: {}", i + 1, cases.len(), case.name);
-        log.print(&message);
+        log.print_if_due(&message);
         waiting.set_message(message);
         let scores = scores(case, &choices, rays, args)?;
         for (column, score) in columns.iter_mut().zip(scores) {
