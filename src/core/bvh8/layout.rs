@@ -26,15 +26,15 @@ impl<T: TriangleTest> Layout<T> {
         let Some(root) = collapse.root() else {
             return Ok(Self { root: Child::NOTHING, nodes: vec![], blocks: vec![] });
         };
-        let cut = if collapse.references(root).len() > most { most } else { 0 };
-        let mut top = Piece::new(mesh, collapse, cut);
+        let defer_up_to = if collapse.references(root).len() > most { most } else { 0 };
+        let mut top = Piece::new(mesh, collapse, defer_up_to);
         let root = top.write(root, 0);
-        let below = |cut: &DeferredSubtree| {
+        let below = |subtree: &DeferredSubtree| {
             let mut piece = Piece::new(mesh, collapse, 0);
-            piece.write(cut.part, cut.depth);
+            piece.write(subtree.part, subtree.depth);
             piece
         };
-        let pieces: Vec<Piece<T>> = top.cuts.par_iter().map(below).collect();
+        let pieces: Vec<Piece<T>> = top.deferred.par_iter().map(below).collect();
         Self::joined(root, top, pieces, limits)
     }
 
@@ -46,8 +46,8 @@ impl<T: TriangleTest> Layout<T> {
 
         let mut starts = vec![];
         let mut end = (top.nodes.len(), top.blocks.len());
-        for (cut, piece) in top.cuts.iter().zip(&pieces) {
-            top.nodes[cut.parent].children[cut.lane] = Child::node(end.0);
+        for (subtree, piece) in top.deferred.iter().zip(&pieces) {
+            top.nodes[subtree.parent].children[subtree.lane] = Child::node(end.0);
             starts.push(end);
             end = (end.0 + piece.nodes.len(), end.1 + piece.blocks.len());
         }
@@ -79,9 +79,9 @@ struct Piece<'a, T: TriangleTest> {
     blocks: Vec<LeafBlock<T>>,
     /// Number of nodes on the longest path from the root of the tree into this piece.
     depth: usize,
-    /// Subtrees with at most this many references are added to `cuts`.
-    cut: usize,
-    cuts: Vec<DeferredSubtree>,
+    /// Subtrees with at most this many references are added to `deferred`.
+    defer_up_to: usize,
+    deferred: Vec<DeferredSubtree>,
 }
 
 /// A subtree that a separate [`Piece`] writes.
@@ -94,8 +94,8 @@ struct DeferredSubtree {
 }
 
 impl<'a, T: TriangleTest> Piece<'a, T> {
-    fn new(mesh: &'a Mesh, collapse: &'a Collapse<'a>, cut: usize) -> Self {
-        Self { mesh, collapse, nodes: vec![], blocks: vec![], depth: 0, cut, cuts: vec![] }
+    fn new(mesh: &'a Mesh, collapse: &'a Collapse<'a>, defer_up_to: usize) -> Self {
+        Self { mesh, collapse, nodes: vec![], blocks: vec![], depth: 0, defer_up_to, deferred: vec![] }
     }
 
     fn write(&mut self, part: Part, depth: usize) -> Child {
@@ -109,9 +109,10 @@ impl<'a, T: TriangleTest> Piece<'a, T> {
                 let mut node = Node { orders: children.orders, ..Node::EMPTY };
                 let parts = children.parts();
                 for (lane, &part) in (WIDTH - parts.len()..).zip(parts) {
-                    let is_left = matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.cut;
+                    let is_left =
+                        matches!(part, Part::Node(_)) && self.collapse.references(part).len() <= self.defer_up_to;
                     let child = if is_left {
-                        self.cuts.push(DeferredSubtree { part, parent: own, lane, depth: depth + 1 });
+                        self.deferred.push(DeferredSubtree { part, parent: own, lane, depth: depth + 1 });
                         Child::NOTHING
                     } else {
                         self.write(part, depth + 1)

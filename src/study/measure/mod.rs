@@ -29,7 +29,7 @@ use judge::{Judge, slowest};
 use pair::Pair;
 use prepared::build_all;
 use rays::{drop_times_of_wrong_tree, new_record, record_check};
-use timed_check::TimedCheck;
+use timed_check::{TimedCheck, checking_tree};
 use timing::{SampleFailure, Timing};
 
 pub use build_watch::BuildWatch;
@@ -175,8 +175,8 @@ impl<'a> Bench<'a> {
             let Some(&(_, checksum)) = self.checksums.iter().find(|(own, _)| *own == pair) else { continue };
             let timed = structure.rays[pair.workload].rays;
             progress(Stage::Check((&structure.label).into()));
-            let check =
-                checks.check(built, &pair, timed, checksum).map_err(StudyError::of_build("sah-bvh", &scene.name))?;
+            let failed = StudyError::of_build(checking_tree(built), &scene.name);
+            let check = checks.check(built, &pair, timed, checksum).map_err(failed)?;
             if let Some(check) = refuse_unless(structure, built, check) {
                 record_check(&mut structure.rays[pair.workload], check, &self.case.scene.word, built);
             }

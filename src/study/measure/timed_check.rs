@@ -84,7 +84,7 @@ impl<'a> TimedCheck<'a> {
     /// Returns the index of a tree in `references`. A structure is never compared with itself.
     fn reference(&mut self, built: &Built) -> Result<usize, BuildError> {
         let own_test = built.choice.triangle_test();
-        let name = if built.choice.entry.name == "sah-bvh" { "sah-hybrid" } else { "sah-bvh" };
+        let name = checking_tree(built);
         let is_it = |one: &TreeHits| one.name == name && one.triangle_test == own_test;
         if let Some(place) = self.references.iter().position(is_it) {
             return Ok(place);
@@ -141,6 +141,11 @@ impl<'a> TimedCheck<'a> {
         });
         Checked { rays: rays.len(), rounded: checked.rounded + judged.rounded, ..judged }
     }
+}
+
+/// The name of the tree that checks the hits of a structure. It is never the structure itself.
+pub fn checking_tree(built: &Built) -> &'static str {
+    if built.choice.entry.name == "sah-bvh" { "sah-hybrid" } else { "sah-bvh" }
 }
 
 /// Indices of all rays in the samples of the first `epochs` epochs. Each sample has `rays` rays.
