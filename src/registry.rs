@@ -21,7 +21,7 @@ pub use choice::{Choice, ChoiceError, RUNNER, is_named, plain_name};
 pub use entry::Entry;
 pub use keys::Key;
 
-/// The registered structures and scene generators.
+/// The registered structures, in the order of tables, and the scene generators.
 #[derive(Clone)]
 pub struct Registry {
     entries: Vec<Entry>,

@@ -10,7 +10,7 @@ use sahara::request::known_defect;
 use sahara::validate::hard_cases::{CaseTruth, Content, HardCase, Rank, catalogue, run};
 
 const RAYS: usize = 200;
-/// Rays per case in `LABORIOUS`.
+/// Rays per case in `LABORIOUS`. Each of these rays needs thousands of exact decisions.
 const FEW: usize = 10;
 const LABORIOUS: [&str; 3] = ["duplicates_20000", "fan_apex", "far_1e8"];
 

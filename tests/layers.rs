@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// The modules of the suite, lowest layer first. A module may import only modules that are listed before it.
+/// The modules of the suite, lowest layer first. ARCHITECTURE.md draws the layers. A module may import only modules
+/// that are listed before it.
 ///
 /// The modules of the layer `STRUCTURES` must not import each other.
 const LAYERS: [&[&str]; 9] = [

@@ -84,7 +84,8 @@ fn bundles(mesh: &Mesh) -> Vec<Ray> {
     let mixed: Vec<Ray> = Stratum::ALL.into_iter().flat_map(|stratum| stratum.rays(mesh, 6, 5)).collect();
     let mut sorted = mixed.clone();
     sorted.sort_by_key(|ray| ray.direction.to_array().map(f32::is_sign_negative));
-    // If `is_equal` is false, the directions of a group have very different lengths.
+    // If `is_equal` is false, the directions of a group have very different lengths. Error bounds may then decide the
+    // hits of long directions, but not the hits of short directions.
     let neighbours = |is_equal: bool| {
         let step = move |i: u32, ray: &Ray| {
             let longer = if is_equal { 1.0 } else { (3.0 * i as f32).exp2() };

@@ -92,6 +92,7 @@ const FINDINGS: [Finding; 4] = [
     },
     Finding {
         cause: "in the far face of a box: the same, and elsewhere 1 / 0 is a large number, which makes boxes half-open",
+        // tinybvh also misses rays in far faces, but rounding of its own triangle test may be the cause.
         structures: &["bvh", "parry", "embree", "embree-robust"],
         ray: "0.375,3.875,1.0 0.0,-1.0,0.0",
         ..LOST

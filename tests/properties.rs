@@ -96,7 +96,8 @@ fn all_are_exact(mesh: &Arc<Mesh>, rays: &[Ray]) -> Result<(), TestCaseError> {
 proptest! {
     #![proptest_config(config())]
 
-    /// Tests ray intervals with bounds at hits and at multiples of 1/2.
+    /// Tests ray intervals with bounds at hits and at multiples of 1/2. On this grid, `t` is a fraction with a small
+    /// denominator. Such a `t` rounds to a multiple of 1/2 only if it is this multiple.
     #[test]
     fn on_an_integer_grid_every_structure_is_exact_and_intervals_are_half_open(
         mesh in meshes(integers(), 60),

@@ -76,6 +76,7 @@ pub fn run(session: &Session, args: &Args) -> anyhow::Result<Status> {
         _ => "Everything is measured.",
     };
     let dir = dir.escaped();
+    // The times exclude cases that earlier runs have measured.
     let table = Table::of_texts(&format!("All studies in {dir}"), ["study", "time taken", "result", "journal"], rows);
     terminal.print_table(&table.noted([format!("{left} `sahara report {dir} -o OUT` writes the page.")]));
     Ok(outcome)

@@ -35,7 +35,7 @@ fn commands(text: &str) -> (Vec<String>, Vec<String>) {
     };
     let code = text.split("```").skip(1).step_by(2).flat_map(str::lines);
     let lines = code.map(|line| line.split("  #").next().unwrap_or(line)).map(str::trim).filter_map(own);
-    // Skip text that contains a placeholder or a line break.
+    // Skip text that contains a placeholder or a line break. `sahara 1 THREADS` is a line of the runner protocol.
     let is_command = |span: &&str| {
         span.starts_with("sahara ") && !["NAME", "THREADS", "JSON", "\n"].iter().any(|other| span.contains(other))
     };

@@ -1,7 +1,8 @@
 //! Handles Ctrl-C and SIGTERM on Linux.
 //!
 //! After `listen(true)`, the first Ctrl-C requests a stop and kills the child process that is measuring. A stopped run
-//! prints and saves its results. The second Ctrl-C ends the process at once. SIGTERM ends the process at once.
+//! prints and saves its results. The second Ctrl-C ends the process at once. SIGTERM ends the process at once,
+//! because senders of SIGTERM, such as `timeout` and schedulers, do not wait.
 
 use std::io::Write;
 use std::process::ExitCode;

@@ -208,6 +208,7 @@ const PANIC: &str = "the panic above ended the command: if a structure caused it
                      `sahara validate`; otherwise it is a bug in sahara";
 
 /// Runs the command line `args`. The first argument is the name of the program. All cases are measured in this process.
+/// A separate process would run the calling program, which may not accept the option `--case`.
 pub fn run(suite: &Suite, args: impl IntoIterator<Item = OsString>) -> ExitCode {
     run_with(suite, args, false)
 }

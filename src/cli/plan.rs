@@ -47,6 +47,7 @@ pub struct Args {
 
 impl Args {
     /// Returns the arguments of this command, the names of studies, and the options of the studies.
+    /// Clap does not parse `rest`, so this function rejects a repeated `--quick` or `--dir` with the message of clap.
     fn split(&self) -> anyhow::Result<(Self, Vec<OsString>, Vec<OsString>)> {
         let (mut own, mut options) = (self.clone(), vec![]);
         // After `--scenes`, clap parses options of studies as scenes. Without a name, clap parses the first option of a

@@ -12,6 +12,7 @@ pub struct Client(ureq::Agent);
 /// Mesh repositories redirect a download once or twice.
 const REDIRECTS: u32 = 5;
 
+/// The time limit for a connection, a response or the next bytes. A whole download has no time limit.
 const TIMEOUT: Duration = Duration::from_secs(60);
 
 /// The default limit of the download size, in bytes.

@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
+/// Prints names safely. Unescaped control characters in a file name could change the terminal or break a table.
 pub trait Escaped {
     /// The name on one line. Control characters appear, for example, as `\n` or `\u{1b}`. Invalid UTF-8 bytes appear,
     /// for example, as `\xff`.

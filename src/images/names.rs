@@ -10,7 +10,7 @@ macro_rules! named_enum {
         }
 
         impl $type {
-            /// All values, in the order of their declaration.
+            /// All values, in the order of their declaration. Tables use this order.
             pub const ALL: [Self; [$($name),*].len()] = [$(Self::$value),*];
 
             /// The name of the value in commands, output and files.
@@ -50,7 +50,7 @@ pub fn named<T>(known: impl IntoIterator<Item = T>, wanted: &str, name: impl Fn(
     known.into_iter().find(|one| name(one).eq_ignore_ascii_case(wanted))
 }
 
-/// The element of `known` that `wanted` probably means.
+/// The element of `known` that `wanted` probably means. Swapped neighbouring letters count as one difference.
 ///
 /// # References
 /// Damerau, A technique for computer detection and correction of spelling errors, 1964.

@@ -20,7 +20,7 @@ use crate::escaped::Escaped as _;
 /// The file name for standard output.
 pub const STDOUT: &str = "-";
 
-/// The name of the file that lists the contents of an output folder.
+/// The name of the file that lists the contents of an output folder. [`OutputFolder::check`] rejects unlisted files.
 const MARK: &str = "sahara-files.json";
 
 #[derive(Debug, thiserror::Error)]
@@ -101,7 +101,7 @@ impl OutputFile {
     }
 
     /// Returns false if the path exists or is [`STDOUT`]. Only one of several concurrent calls for one path
-    /// returns true.
+    /// returns true, even on machines that share a file system. The contents are flushed to the disk.
     pub fn write_new(&self, bytes: &[u8]) -> Result<bool, OutputError> {
         let Some(regular) = &self.regular else { return Ok(false) };
         match written(regular, bytes).and_then(|file| Ok(file.persist_noclobber(regular)?)) {
@@ -234,7 +234,8 @@ fn temporary(#[cfg_attr(not(unix), expect(unused_variables))] mode: u32) -> Buil
 
 static TO_STDOUT: AtomicBool = AtomicBool::new(false);
 
-/// The first error from a write to standard output. A broken pipe is not recorded.
+/// The first error from a write to standard output. A broken pipe is not recorded. The command reports the error when
+/// it ends.
 pub static FAILURE: OnceLock<io::Error> = OnceLock::new();
 
 /// Whether a result is written to standard output. If so, callers print messages to standard error.

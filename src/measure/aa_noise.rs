@@ -7,7 +7,7 @@ use super::summary::{Variance, mean};
 /// The **A/A noise** is the size of timing effects that differ between runs, but not between the epochs of a run.
 ///
 /// # References
-/// Georges, Buytaert, Eeckhout: Statistically rigorous Java performance evaluation. 2007.
+/// Georges, Buytaert, Eeckhout: Statistically rigorous Java performance evaluation. 2007 (comparison of alternatives).
 #[derive(Clone, Debug, PartialEq)]
 pub struct AaNoise {
     /// Each cell has one time ratio of two builds of the same structure. Without noise, each ratio is 1. The
@@ -49,6 +49,7 @@ impl AaNoise {
         self.weighted(&[1.0, -1.0])
     }
 
+    /// The cells must be independent.
     pub fn of_mean(&self, cells: usize) -> Variance {
         self.of_ratio().times(1.0 / libm::sqrt(cells.max(1) as f64))
     }

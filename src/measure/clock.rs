@@ -26,6 +26,7 @@ impl<'a> Stopwatch<'a> {
         Self { clock, reading_ns: (0..READINGS).map(reading).min().unwrap_or(0) }
     }
 
+    /// Returns nanoseconds.
     #[inline]
     pub fn time(&self, work: impl FnOnce()) -> u64 {
         let start = self.clock.now_ns();
@@ -49,7 +50,7 @@ impl Clock for SystemClock {
     }
 }
 
-/// Processor time. The clock stops while another program uses the core.
+/// Processor time. The clock stops while another program, or the host of a virtual machine, uses the core.
 #[derive(Clone, Copy)]
 pub enum CpuClock {
     /// The processor time of the calling thread.

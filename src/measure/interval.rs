@@ -6,29 +6,31 @@
 //!
 //! **The model.** Each epoch is a separate process that rebuilds all structures. In each round of an epoch, every
 //! structure is timed once on every workload. For structures A and B on one workload, y is ln(time of A / time of B) in
-//! one round. All rounds of an epoch share the effect of one memory layout (Kalibera, Jones, "Rigorous benchmarking in
-//! reasonable time", 2013; Mytkowicz, Diwan, Hauswirth, Sweeney, "Producing wrong data without doing anything obviously
-//! wrong", 2009).
+//! one round: a slow phase of the machine affects the two times equally and cancels. All rounds of an epoch share the
+//! effect of one memory layout (Kalibera, Jones, "Rigorous benchmarking in reasonable time", 2013; Mytkowicz, Diwan,
+//! Hauswirth, Sweeney, "Producing wrong data without doing anything obviously wrong", 2009).
 //!
 //! **The estimate.** z(e) is the median of y over the rounds of epoch e. A cell is one workload of one scene. For
-//! several cells, z(e) is the mean of the medians of all cells. The estimate is the mean of z over all epochs.
+//! several cells, z(e) is the mean of the medians of all cells. The estimate is the mean of z over all epochs. Medians
+//! resist the heavy tails of the noise.
 //!
 //! **The interval.** Let s^2 be the sample variance of z over E epochs. The variance of the estimate is s^2 / E. The
-//! difference between the estimates of two runs has the variance 2 s^2 / E. Student's t with E - 1 degrees of freedom
-//! gives the half-width t s sqrt(2 / E) (Hahn, Meeker, Escobar, "Statistical intervals", 2nd edition 2017, chapter 4:
-//! prediction of the mean of a future sample).
+//! difference between the estimates of two runs of E epochs has the variance 2 s^2 / E. Student's t with E - 1 degrees
+//! of freedom gives the half-width t s sqrt(2 / E) (Hahn, Meeker, Escobar, "Statistical intervals", 2nd edition 2017,
+//! chapter 4: prediction of the mean of a future sample). A single epoch gives no interval.
 //!
 //! **The A/A noise.** Some effects on the times vary between runs, not between the epochs of a run.
 //! [`AaNoise`](super::AaNoise) estimates the variance of these effects. The variance of the difference includes this
 //! variance once for each of the two runs.
 //!
-//! **Limits.** With one round per epoch, frequent long interruptions make the intervals too narrow.
+//! **Limits.** With one round per epoch, frequent long interruptions make the intervals too narrow. A single A/A ratio
+//! is not enough if the effects of whole runs dominate.
 
 use super::estimate::{Estimate, Interval};
 use super::quantiles::{LEVEL, factor};
 use super::summary::{Variance, mean, median};
 
-/// Returns ln(numerator / denominator) of every round, grouped by epoch. Both slices must be sorted by epoch.
+/// Returns ln(numerator / denominator) of every round, grouped by epoch. Both slices must be sorted by epoch and round.
 ///
 /// # Panics
 /// If `epochs` is 0, the slices differ in length, the length is no multiple of `epochs`, or a sample is not positive.
@@ -40,7 +42,7 @@ pub fn log_ratios(numerator: &[f64], denominator: &[f64], epochs: usize) -> Vec<
     logs.chunks((logs.len() / epochs).max(1)).map(<[f64]>::to_vec).collect()
 }
 
-/// Truncates every cell to the length of the shortest cell.
+/// Truncates every cell to the length of the shortest cell. A choice of epochs by their results would bias means.
 pub fn cut_to_shared_epochs(cells: &mut [Vec<Vec<f64>>]) {
     let fewest = cells.iter().map(Vec::len).min().unwrap_or(0);
     cells.iter_mut().for_each(|cell| cell.truncate(fewest));
@@ -68,7 +70,8 @@ pub struct Rerun {
 }
 
 impl Rerun {
-    /// `values` has one value per epoch. `noise` is the [A/A noise](super::AaNoise) of one run.
+    /// `values` has one value per epoch. `noise` is the [A/A noise](super::AaNoise) of one run. The second run must
+    /// have as many epochs.
     pub fn of(values: &[f64], noise: Variance) -> Option<Self> {
         if values.is_empty() {
             return None;

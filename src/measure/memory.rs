@@ -50,7 +50,8 @@ unsafe impl GlobalAlloc for CountingAllocator {
 }
 
 /// Returns the result of `work` and the peak increase of allocated bytes. The peak includes allocations of all threads.
-/// Without an installed [`CountingAllocator`], the peak is `None`.
+/// Without an installed [`CountingAllocator`], the peak is `None`. Only one call runs at a time, so `work` must not
+/// call `peak_bytes`.
 pub fn peak_bytes<R>(work: impl FnOnce() -> R) -> (R, Option<usize>) {
     static ONE: Mutex<()> = Mutex::new(());
     /// Stops the counter on drop, also after a panic.

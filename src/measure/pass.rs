@@ -52,7 +52,7 @@ pub fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
 }
 
 /// A pass begins with an untimed lead-in over the final rays of the workload. The lead-in warms the caches and branch
-/// predictors for this structure.
+/// predictors for this structure. On one thread, a tile that does not adjoin the previous tile has a lead-in as well.
 pub struct Pass<'a> {
     accel: &'a dyn DynAccel,
     threads: &'a Threads,
@@ -75,10 +75,11 @@ pub struct Pass<'a> {
 /// The lead-in of a pass has 1 / `LEAD_IN_SHARE` of the rays of the workload.
 pub(super) const LEAD_IN_SHARE: usize = 8;
 
-/// On one thread, the lead-in before a subset of the rays stops after this time.
+/// On one thread, the lead-in before a subset of the rays stops after this time. Slow structures need fewer rays to
+/// fill the caches.
 const LEAD_IN: Duration = Duration::from_millis(10);
 
-/// Limit of the estimated time of the lead-in of a tile.
+/// Limit of the estimated time of the lead-in of a tile. Caches load the data of a tile within this time.
 const TILE_LEAD_IN_NS: u128 = 200_000;
 
 impl<'a> Pass<'a> {
@@ -189,6 +190,7 @@ impl Timed for Pass<'_> {
     fn run(&mut self, watch: &Stopwatch) -> Vec<u64> {
         let mut ns = vec![0; self.levels];
         if self.threads.count() > 1 {
+            // The threads divide the rays of a level, so each level is timed separately.
             // The loop ends with `level` 0, because `checksum` must read the results of `level` 0.
             for level in (0..self.levels).rev() {
                 let of_level = |piece: &&Piece| piece.levels >> level & 1 == 1;

@@ -82,7 +82,7 @@ impl Provenance {
     }
 
     /// Two runs count as runs of the same build and machine if all returned fields are equal. The host name is not
-    /// returned.
+    /// returned: epochs may come from several equal hosts, because samples are paired only within a case.
     pub fn machine(&self) -> Map<String, Value> {
         let facts = "version commit build rustc profile target_features simd cpu threads process_per_epoch";
         let all = serde_json::to_value(self).expect("keys are text");

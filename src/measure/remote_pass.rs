@@ -101,7 +101,7 @@ impl Timed for RemotePass<'_> {
     }
 
     fn lead_in(&mut self) {
-        // An untimed first pass over batch 0 warms the caches.
+        // An untimed first pass over batch 0 warms the caches. The tiles of a subset may lie far from the lead-in rays.
         if !self.is_warm && !self.has_failed() {
             self.batches[0].query(&mut self.results);
             self.is_warm = true;

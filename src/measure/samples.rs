@@ -12,7 +12,7 @@ pub trait Timed {
     /// subset of the rays of `levels[0]`.
     fn choose(&mut self, levels: &[usize], epoch: usize);
 
-    /// Discards the results of the previous pass.
+    /// Discards the results of the previous pass, to detect a pass that writes no results. Called before every pass.
     fn clear(&mut self);
 
     /// Warms caches and branch predictors before a timed pass.
@@ -31,9 +31,10 @@ pub trait Timed {
 pub struct SamplePlan {
     /// The maximum number of samples per case and epoch, at least 1.
     pub runs: usize,
-    /// Time limit for the samples of all cases in one epoch, ns.
+    /// Time for the samples of all cases in one epoch, ns. One sample per case with the fewest rays may take longer.
     pub budget_ns: u64,
-    /// The maximum ratio of the time of a case to the median time. Slower cases are timed on fewer rays.
+    /// The maximum ratio of the time of a case to the median time. Slower cases are timed on fewer rays, even within
+    /// the budget. Infinite for no limit.
     pub slowest: f64,
     pub most_rays: usize,
     pub seed: u64,
@@ -53,7 +54,7 @@ pub struct Samples {
     pub timed_checksum: u64,
     /// Entry `i` of every case was measured in round `i`.
     pub ns: Vec<u64>,
-    /// Samples of subsets of the rays.
+    /// The times of the same samples on subsets of their rays, for comparison with slower cases.
     pub parts: Vec<SubsetSamples>,
     /// `false` if repeated passes over the same rays had different results.
     pub is_steady: bool,
@@ -68,6 +69,9 @@ pub struct SubsetSamples {
 
 impl Samples {
     /// Empty samples of a case. `all` is the number of rays of the workload.
+    ///
+    /// A subset differs between epochs. Every epoch therefore also traces about a sixteenth of the subset of epoch 0,
+    /// for the checksum.
     pub fn none(all: usize, level: usize) -> Self {
         let checksum_level = (level > 0).then(|| (level + 2).min(last_level(all)));
         Self { rays: rays_at(all, level), checksum_level, is_steady: true, ..Self::default() }
@@ -76,8 +80,9 @@ impl Samples {
 
 /// Each round takes one sample of every case, in random order.
 ///
-/// Within a round, cases with equal numbers in `compared` are consecutive. A case whose results change is not run
-/// again. `progress` receives the number of samples so far, including skipped samples.
+/// Within a round, cases with equal numbers in `compared` are consecutive, so a long disturbance affects all of them. A
+/// case whose results change is not run again. `progress` receives the number of samples so far, including skipped
+/// samples.
 ///
 /// # Panics
 /// If `samples` or `compared` differ in length from `cases`. If `samples` contains a number of rays that no level has.

@@ -29,7 +29,8 @@ impl Threads {
         Ok(Self { pool: Arc::new(OnceLock::from(pool)), ..threads })
     }
 
-    /// The threads start at the first call of [`install`](Self::install).
+    /// The threads start at the first call of [`install`](Self::install), because idle threads would disturb the timed
+    /// thread.
     pub fn unstarted(count: usize) -> Self {
         // The load average must be read before the threads start.
         machine::load_at_start();
@@ -61,7 +62,8 @@ impl Threads {
         self.cores.as_deref()
     }
 
-    /// Binds the calling thread if `count` is 1. `None` if the calling thread was not bound.
+    /// Binds the calling thread if `count` is 1, because the calling thread then traces. `None` if the calling thread
+    /// was not bound.
     pub fn pin(&self) -> Option<Pin> {
         if self.count == 1 { Pin::to(*self.cores.as_ref()?.first()?) } else { None }
     }
@@ -103,7 +105,8 @@ impl Drop for Pin {
 
 static CORES: OnceLock<Vec<usize>> = OnceLock::new();
 
-/// Every later [`Threads`] with `cores.len()` threads uses `cores`. Only the first call has an effect.
+/// Every later [`Threads`] with `cores.len()` threads uses `cores`, if the system allows all of them. Only the first
+/// call has an effect.
 pub fn keep_to(cores: &[usize]) {
     CORES.get_or_init(|| cores.into());
 }

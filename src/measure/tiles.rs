@@ -1,9 +1,11 @@
 //! Selects subsets of the rays of a workload.
 //!
-//! A tile is a range of consecutive rays. A subset consists of tiles, because scattered single rays would miss the
-//! caches more often. Different epochs select different subsets.
+//! A tile is a range of consecutive rays. A workload lists the rays of a picture block by block, so a tile is a block
+//! of pixels. A subset consists of tiles, because scattered single rays would miss the caches more often. Different
+//! epochs select different subsets, so the spread between epochs includes the choice of tiles.
 //!
-//! Level 0 contains all rays. Each further level contains about a quarter of the rays of the previous level.
+//! Level 0 contains all rays. Each further level contains about a quarter of the rays of the previous level. In one
+//! epoch, the levels are nested, so a pass of a fast structure also times the rays of a slower structure.
 
 use std::ops::Range;
 

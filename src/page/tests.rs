@@ -91,6 +91,7 @@ fn numbers_stand_to_the_right_and_sort_by_their_value() {
 fn the_answer_goes_by_what_is_measured() {
     const HARD: [&str; 3] = ["Dragon", "Lucy", "Sponza"];
     const SAH: &str = "Would a SAH tree have been much faster on the hard scenes?";
+    // Studies with scenes; expected title, verdict, count of numbers, parts of sentences, count of parts in a bar.
     type Case<'a> = (&'a [(&'a str, &'a [&'a str])], &'a str, &'a str, usize, &'a [&'a str], usize);
     let tally = "0 of 24 confirmed, 1 refuted, 0 undecided, 23 not measured";
     let own = "Of all structures sah-kd is the fastest.";
@@ -174,6 +175,7 @@ fn of_two_runs_the_newest_cases_count_and_what_is_not_shown_is_said() {
     let again: Files = journal("compare", &["Cube"], &new);
     let again = again.into_iter().map(|(name, text)| (name, String::from_utf8(text).unwrap().replace("8000", "8001")));
     let again: Files = again.map(|(name, text)| (name, text.into_bytes())).collect();
+    // Files added to a journal of three scenes; expected shown scenes, hidden scenes, and part of the only note.
     type Case<'a> = (Files, &'a [&'a str], &'a [&'a str], &'a str);
     let cases: [Case; 6] = [
         (export("compare", &three, &old), &three, &[], ""),

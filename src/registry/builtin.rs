@@ -13,6 +13,7 @@ use crate::validate::HasReference;
 impl Registry {
     pub fn builtin() -> Self {
         // The first triangle test of a structure name is the default test. Our structures use `Exact` by default.
+        // The default test of a peer is the test of the peer's library.
         let ours = Self::empty()
             .over::<Exact>()
             .over::<MollerTrumbore>()

@@ -7,11 +7,12 @@ use crate::names::named_enum;
 
 #[derive(Clone, Debug, Default)]
 pub struct Report {
+    /// The most important finding comes first.
     pub findings: Vec<Finding>,
     pub blocks: Vec<Block>,
     /// Verdicts on claims that were written before the measurement.
     pub verdicts: Vec<ClaimVerdict>,
-    /// Missing measurements and wrong hits.
+    /// Missing measurements and wrong hits. The failures decide the exit status.
     pub failures: Vec<Failure>,
     /// Conditions that disturbed the run.
     pub warnings: Vec<String>,
@@ -22,7 +23,7 @@ pub struct Report {
 /// A statement about the data: a sentence, a number or a name. Claims refer to a finding by the key.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Unique among the findings of a study.
+    /// Letters, digits and hyphens. Unique among the findings of a study.
     pub key: String,
     /// A sentence with a full stop, or an empty text.
     pub sentence: String,
@@ -83,7 +84,7 @@ pub struct Failure {
 
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// The names of picture files begin with the id.
+    /// Letters, digits and hyphens. The names of picture files begin with the id.
     pub id: String,
     pub caption: String,
     pub alt: String,

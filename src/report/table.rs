@@ -5,6 +5,7 @@ use super::{Cell, Value};
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
+    /// One line.
     pub title: String,
     pub columns: Vec<String>,
     /// Each row has one cell per column.

@@ -38,7 +38,8 @@ impl RayKind {
             Self::Axis => (Stratum::AxisParallel, "axis-parallel rays through vertex coordinates"),
             Self::Grazing => (Stratum::Grazing, "rays almost in the plane of a triangle"),
             Self::Scale => (Stratum::Lengths, "rays with directions 1e-30 to 1e30 long"),
-            // Far beyond 1e6 scene sizes, the spacing of `f32` values exceeds the scene size.
+            // Far beyond 1e6 scene sizes, the spacing of `f32` values exceeds the scene size. A traversal that loses no
+            // hit then visits nearly all nodes.
             Self::Offset => (Stratum::FarOrigins, "rays from 1e3 to 1e6 scene sizes away"),
             Self::Surface => (Stratum::FromSurface, "rays from points on triangles"),
         }
@@ -61,6 +62,7 @@ impl RayKind {
 /// Rays of [`Stratum::FarOrigins`] whose origins are less than 2e6 mesh sizes from the centre of the mesh.
 fn near_enough(mesh: &Mesh, count: usize, seed: u64) -> Vec<Ray> {
     let (centre, reach) = (mesh.bounds().centre(), mesh.bounds().extent().max_element() * 2e6);
+    // About two of three rays are near enough.
     let mut tried = 2 * count + 64;
     loop {
         let mut rays = Stratum::FarOrigins.rays(mesh, tried, seed);

@@ -107,7 +107,7 @@ impl WorkloadRequest {
     }
 }
 
-/// Removes repeated workloads.
+/// Removes repeated workloads, which would count twice in means.
 pub fn each_kind<K: Copy + PartialEq>(named: &[K], own: &[K]) -> Vec<K> {
     each_once(if named.is_empty() { own } else { named }.iter().copied())
 }
@@ -130,7 +130,7 @@ impl Rays {
     }
 }
 
-/// A value of `--rays`: a number of rays, `all`, or a ray file.
+/// A value of `--rays`: a number of rays, `all`, or a ray file. A file named `100` is written `./100`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RaySource {
     /// The maximum number of rays. `usize::MAX` represents all rays.

@@ -16,6 +16,7 @@ pub struct RunnerRequest {
     pub command: String,
     /// Timeout for a reply, in seconds.
     pub limit_s: f64,
+    /// Contains a digest of the program: a changed program counts as another structure.
     pub config: serde_json::Value,
 }
 

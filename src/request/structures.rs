@@ -15,10 +15,10 @@ pub const REPORT_TREE: &str = "median-kd";
 
 pub const SAH_TREE: &str = "sah-kd";
 
-/// The word that selects all structures.
+/// The word that selects one structure of every name.
 pub const ALL: &str = "all";
 
-/// The role of the second build of a structure.
+/// The role of the second build of a structure, which measures the A/A noise.
 pub const TWIN: &str = "twin";
 
 pub const QUALITIES: [&str; 3] = ["fast", "balanced", "high"];
@@ -80,7 +80,7 @@ pub fn specs(registry: &Registry, named: &[String]) -> Vec<String> {
     each.map(String::from).collect()
 }
 
-/// If `named` is empty, returns all structures.
+/// If `named` is empty, returns every structure with its default triangle test.
 pub fn structures(registry: &Registry, named: &[String]) -> anyhow::Result<Vec<Choice>> {
     structures_at(registry, named, None)
 }
@@ -163,6 +163,8 @@ pub fn with_twin(mut structures: Vec<StructureRequest>) -> Vec<StructureRequest>
     structures
 }
 
+/// Whether work proportional to the number of triangles is sampled or skipped. On a large mesh, brute force takes at
+/// least ten milliseconds per ray.
 pub fn is_large(triangles: usize) -> bool {
     triangles > 1 << 22
 }

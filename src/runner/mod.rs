@@ -1,4 +1,4 @@
-//! A runner is an external program that builds a structure and traces rays.
+//! A runner is an external program that builds a structure, traces rays and measures the times.
 //! [`crate::scene::files`] documents the protocol.
 
 mod program;

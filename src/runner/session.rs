@@ -51,7 +51,7 @@ impl Session {
         Ok(Self { child, input, lines, limit })
     }
 
-    /// Sends a line and returns the reply. Any error kills the program.
+    /// Sends a line and returns the reply. Any error kills the program. The error is a clause.
     pub fn request(&mut self, request: &str) -> Result<Reply, String> {
         let reply = self.exchange(request);
         if reply.is_err() {
@@ -89,8 +89,8 @@ impl Session {
         }
     }
 
-    /// Closes the input, waits up to `patience`, then kills the program. Returns the exit status if the program ended
-    /// within `patience`.
+    /// Closes the input, waits up to `patience`, then kills the program and its descendants. Returns the exit status if
+    /// the program ended within `patience`.
     fn end(&mut self, patience: Duration) -> Option<ExitStatus> {
         self.input = None;
         let has_ended = process_group::ends_within(&mut self.child, patience);

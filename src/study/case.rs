@@ -1,4 +1,5 @@
-//! A case: one epoch of one scene, measured by one process.
+//! A case: one epoch of one scene, measured by one process. A case is plain data: the process that measures it does
+//! not need the study that planned it.
 
 use std::collections::BTreeMap;
 
@@ -17,12 +18,13 @@ pub struct Case {
     /// Parameters that the study varies, such as `level=7`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub labels: BTreeMap<String, String>,
+    /// In the order of the tables.
     pub structures: Vec<StructureRequest>,
     pub workloads: WorkloadRequest,
     pub settings: Settings,
     /// Counted from 0. Only epoch 0 checks hits and counts triangle tests.
     pub epoch: usize,
-    /// The number of planned epochs.
+    /// The number of planned epochs. A run with more epochs adds to the existing epochs.
     pub epochs: usize,
     /// The command line that planned the case.
     pub command: String,
@@ -36,7 +38,7 @@ pub struct Settings {
     pub budget_ns: Option<u64>,
     /// Time limit of a sample, relative to the median of all samples. `None` is unlimited.
     ///
-    /// A structure above the limit is timed on fewer rays.
+    /// A structure above the limit is timed on fewer rays. Ignored if `budget_ns` is `None`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowest: Option<f64>,
     pub check: Check,
@@ -76,7 +78,7 @@ pub enum Check {
     Oracle,
 }
 
-/// The default of `tests` in [`Check::BruteForce`].
+/// The default of `tests` in [`Check::BruteForce`]. Brute force then takes about 0.2 s per workload.
 pub const TESTS: usize = 1 << 27;
 
 impl Default for Check {
@@ -85,7 +87,8 @@ impl Default for Check {
     }
 }
 
-/// The usual value of [`Settings::slowest`].
+/// The usual value of [`Settings::slowest`]. More rays would take much time, but hardly improve the ratios of slow
+/// structures.
 pub const SLOWEST: f64 = 4.0;
 
 impl Settings {
@@ -110,6 +113,7 @@ impl Settings {
         }
     }
 
+    /// Returns an error if the registry is empty.
     pub fn new<const EPOCHS: u16, const RUNS: u16, const BUDGET: u32>(
         measuring: &Measuring<EPOCHS, RUNS, BUDGET>,
         registry: &Registry,
@@ -124,7 +128,8 @@ impl Settings {
     }
 }
 
-/// The number of triangles per unit of [`Case::work`].
+/// The number of triangles per unit of [`Case::work`]. Builds over this many triangles take about a quarter of the
+/// fixed time of an epoch.
 const TRIANGLES: u64 = 12_000;
 
 impl Case {

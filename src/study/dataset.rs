@@ -1,4 +1,5 @@
-//! The measured cases that a report reads.
+//! The measured cases that a report reads. All cases have the same study and [group](Case::group), and were measured by
+//! one build on one machine.
 #![doc = include_str!("SCHEMA.md")]
 
 use serde::{Deserialize, Serialize};

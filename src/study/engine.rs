@@ -206,6 +206,7 @@ impl Engine<'_> {
         screen.warn(&report.warnings);
         let (mut tables, mut notes, mut foot) = (vec![], vec![], vec![]);
         if is_reported || !dataset.measured.is_empty() {
+            // Means use only the epochs that all scenes have.
             // If the run was interrupted, the summary leaves out every scene that lacks epochs. Without a time limit,
             // the summary also leaves out each failed scene that lacks epochs. If no scene would remain, the summary
             // includes all measured scenes.

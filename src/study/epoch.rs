@@ -17,7 +17,7 @@ use crate::triangle::{Exact, TriangleTest};
 use crate::validate::{ErrorCounts, Kind, Validation};
 
 /// In an epoch, all structures are rebuilt and measured in rounds. A round measures every structure on every workload
-/// once, in random order.
+/// once. The workloads are in random order, and the structures of a workload are in random order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Epoch {
     pub scene: String,
@@ -52,9 +52,10 @@ pub struct Structure {
     pub wrong: bool,
     /// The median of up to three builds. For a runner, the build time that it reports.
     pub build_ns: u64,
-    /// Peak memory during the build minus memory in use before the build. `None` except in epoch 0.
+    /// Peak memory during the build minus memory in use before the build. `None` if unknown, and after epoch 0.
     pub build_peak_bytes: Option<usize>,
-    /// Elapsed time / reported time of a runner, as the median over the queries.
+    /// Elapsed time / reported time of a runner, as the median over the queries. `None` if all queries were too short,
+    /// and for other structures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outside: Option<f64>,
     pub shape: Shape,
@@ -177,6 +178,8 @@ impl From<&dyn DynAccel> for Shape {
 }
 
 impl Structure {
+    /// Changed or differing hits of such a structure exclude only the structure, not the scene. With `Settings::whole`,
+    /// they exclude the scene.
     pub fn may_err(&self) -> bool {
         self.name == RUNNER || known_defect(&self.name).is_some()
     }
@@ -266,8 +269,8 @@ impl Epoch {
         self.agree(|_| Some(""))
     }
 
-    /// Returns an error if structures with the exact triangle test differ in a `t`. With a triangle test that rounds,
-    /// correct trees may return different hits.
+    /// Returns an error if structures with the exact triangle test differ in a `t`. Other tests are not compared.
+    /// Rounding may place a hit outside the box of its triangle. Then one tree finds the hit and another tree culls it.
     pub fn check_agreement(&self) -> Result<(), StudyError> {
         self.agree(|structure| {
             Some(structure.triangle_test.as_str()).filter(|test| *test == Exact::NAME && !structure.may_err())

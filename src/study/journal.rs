@@ -1,7 +1,8 @@
 //! The journal of a study is a folder of case files. A case is one epoch of one scene.
 //!
 //! Each file is written atomically and never changed. A file name that begins with a dot marks an unfinished write.
-//! File names contain a digest of settings, build and machine. Any process may read at any time.
+//! File names contain a digest of settings, build and machine. Any process may read at any time. Any number of jobs of
+//! `study plan` may write. Only one run at a time may measure the missing cases.
 
 mod case_file;
 mod error;

@@ -32,7 +32,7 @@ pub struct Order {
 
 impl Order {
     /// Each estimate is positive and has an expected rank. The largest estimate is expected at rank 0. Estimates of
-    /// equal rank are not compared. The intervals are corrected for multiple comparisons.
+    /// equal rank are not compared. The intervals are corrected for `looks` times the number of compared pairs.
     pub fn of(ranked: &[(Estimate, usize)], looks: usize) -> Self {
         let all = || 0..ranked.len();
         let couples = all().flat_map(|i| all().map(move |j| [i, j])).filter(|&[i, j]| ranked[i].1 < ranked[j].1);
@@ -53,8 +53,9 @@ impl Order {
     }
 }
 
-/// The taus of one scene are not independent. So the taus of each scene are averaged first. The interval predicts the
-/// mean over an equal number of other scenes.
+/// The taus of one scene are not independent: all workloads use the same trees, and a stand-in imitates the real mesh.
+/// So the taus of each scene are averaged first. The interval predicts the mean over an equal number of other scenes.
+/// It is corrected for the number of claims and cut to [-1, 1].
 pub fn mean_of_scenes<'a>(taus: impl IntoIterator<Item = (&'a str, f64)>) -> Option<Estimate> {
     let mut scenes: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for (scene, tau) in taus {

@@ -203,6 +203,7 @@ pub fn trace_noise(measurements: &[Measurement]) -> AaNoise {
     AaNoise::new(&measurements.iter().filter_map(Measurement::speed_against_twin).collect::<Vec<_>>())
 }
 
+/// Uses one structure with a twin per scene, because build times do not depend on the workload.
 pub fn build_noise(measurements: &[Measurement]) -> AaNoise {
     let of = |own: &Measurement| {
         let log = |ns: &u64| libm::log((*ns).max(1) as f64);

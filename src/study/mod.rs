@@ -56,7 +56,7 @@ pub struct Study {
     pub options: fn() -> Command,
     /// Returns an error if the options name something that cannot be measured.
     pub plan: fn(&ArgMatches, &Registry) -> anyhow::Result<Plan>,
-    /// A pure function.
+    /// A pure function. `sahara report` passes the default options.
     pub report: fn(&Dataset, &ArgMatches) -> Report,
 }
 
@@ -64,7 +64,7 @@ pub struct Study {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Presets {
     pub full: &'static str,
-    /// Arguments for `sahara study all --quick`.
+    /// Arguments for `sahara study all --quick`. A run takes a few minutes.
     pub quick: &'static str,
 }
 
@@ -98,6 +98,7 @@ impl Study {
 }
 
 pub struct Studies {
+    /// In the order of the page.
     list: Vec<Study>,
 }
 

@@ -27,7 +27,7 @@ pub struct Plan {
 }
 
 pub struct PlannedScene {
-    /// Epoch 0 of the scene. [`Plan::by_epoch`] adds all later epochs.
+    /// Epoch 0 of the scene. [`Plan::by_epoch`] sets the study and adds all later epochs.
     pub case: Case,
 }
 
@@ -70,7 +70,7 @@ impl Plan {
         Self { cases: (0..most).flat_map(of_epoch).collect(), keep_journal: true, ..Self::default() }
     }
 
-    /// Sorts the cases by scene.
+    /// Sorts the cases by scene. The tables of a scene are then ready before the next scene begins.
     pub fn by_scene(mut self) -> Self {
         let scene = |case: &Case| Case { epoch: 0, ..case.clone() }.key();
         let order = each_once(self.cases.iter().map(scene));

@@ -1,10 +1,11 @@
 //! Measures a case in a separate process.
 //!
-//! Each process has a different memory layout. The memory layout affects the measured speed
-//! ([`interval`](mod@crate::measure::interval)).
+//! Each process has a different memory layout. Only samples from several processes show how much the memory layout
+//! affects the measured speed ([`interval`](mod@crate::measure::interval)).
 //!
 //! A process with the options `--case JSON --out FILE` measures one case. With `--listen`, the process also writes
 //! messages to standard output. A message is JSON on one line. The process waits for a reply to each stage message.
+//! So the parent process is idle while the process takes times.
 //! Structures can also print to standard output. The parent process copies the output of structures to standard error.
 
 use std::ffi::OsString;

@@ -9,7 +9,7 @@ use crate::validate::{Kind, Validation};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Verdict {
     pub rays: u64,
-    /// Errors that rounding cannot explain.
+    /// Errors that rounding cannot explain, at most `rays`.
     pub wrong: u64,
     /// Errors that rounding may explain. Errors of `t` that `DepthRule::STRICT` allows are not counted.
     #[serde(default)]

@@ -318,7 +318,7 @@ impl<'a> Generator<'a> {
 }
 
 /// Let `end` be `t`, rounded to a float. The interval of the first ray ends at `end`. The interval of the second ray
-/// begins at `end`.
+/// begins at `end`. If the exact `t` is below `end`, a hit at `t` belongs only to the first interval.
 pub fn rounded_ends(ray: &Ray, t: &ExactT) -> [Ray; 2] {
     let end = t.round();
     [ray.until(end), Ray { t_min: end, ..*ray }]

@@ -123,6 +123,7 @@ impl Dispute<'_> {
         (Kind::Tie, "both primitives have this computed t".into())
     }
 
+    /// The nearer of the two returned hits that exact arithmetic confirms. No other triangle is tested.
     fn nearest(&self) -> Option<(ExactT, PrimId)> {
         let truths = [self.expected, self.found].map(|hit| Some((self.true_hit(hit?)?, hit?.prim)));
         truths.into_iter().flatten().min_by(|(a, _), (b, _)| a.cmp(b))

@@ -131,8 +131,8 @@ pub fn differences(expected: &ExpectedHits, found: &[Option<Hit>]) -> Vec<(usize
 /// Compares the any-hit results `found` with the closest hits of the reference. If the reference has the same triangle
 /// test, a hit that the reference misses is an error. Exact arithmetic judges all other differences.
 ///
-/// If rounding may explain a difference, `subject` also traces the ray with the closest-hit query. The results of the
-/// two queries must agree.
+/// If rounding may explain a difference, `subject` also traces the ray with the closest-hit query. The two queries must
+/// agree, because a triangle test rounds the same way in both queries.
 ///
 /// # Panics
 /// If there is not one result per ray.
@@ -187,6 +187,7 @@ pub(super) fn validate_batch(subject: &dyn DynAccel, batch: &ExpectedHits, clock
             Err(message) => return batch.ended(Call::Ray(index), Kind::Panicked, message),
         }
     }
+    // Trace the loaded batch, because timed passes also trace loaded rays.
     let (found, any) = match clock.run(Call::Batch, || traced_loaded(subject, batch.rays)) {
         Ok(hits) => hits,
         Err(message) => return batch.ended(Call::Batch, Kind::Panicked, message),

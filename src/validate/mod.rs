@@ -4,6 +4,8 @@
 //! wrong result, caused by rounding in the triangle test. An *answer error* is a wrong result that rounding in the
 //! triangle test cannot explain. A comparison counts answer errors only if it cannot distinguish structure errors from
 //! triangle-test errors.
+//!
+//! One exception: if a triangle test hits where exact arithmetic finds no hit, a traversal may return or miss this hit.
 
 pub mod adversarial;
 mod blame;

@@ -51,7 +51,7 @@ references!(
     ParryTest,
 );
 
-/// Rays per task of the thread pool.
+/// Rays per task of the thread pool. The number is small, because brute force takes milliseconds per ray.
 const BATCH: usize = 32;
 
 /// A reference structure, with the rules for comparisons.
@@ -59,7 +59,7 @@ pub struct Reference {
     /// The structure whose hits are expected.
     pub accel: Box<dyn DynAccel>,
     /// The common triangle test of the reference and the tested structure. `None` if the triangle tests differ.
-    /// [`Reference::structure`] always sets `None`.
+    /// [`Reference::structure`] always sets `None`. With a common test, hits on one primitive must have equal bits.
     pub test: Option<ScalarTest>,
     /// The assumed precision of the triangle test of the tested structure. Used only if `test` is `None`.
     pub precision: Precision,
@@ -112,7 +112,7 @@ impl Reference {
     }
 
     /// Uses the structure `accel` as the reference. `test` is the name of the triangle test of the tested structure.
-    /// Exact arithmetic judges the differences.
+    /// Exact arithmetic judges the differences, because `accel` may lose hits.
     pub fn structure(accel: Box<dyn DynAccel>, test: &str) -> Self {
         let precision = if test == Exact::NAME { Precision::Exact } else { Precision::Single };
         Self { accel, test: None, precision, disputed: None }

@@ -9,7 +9,8 @@ use crate::measure::spread;
 /// The maximum number of rays whose closest-hit query is repeated.
 const AGAIN: usize = 256;
 
-/// Like [`validate_known`](super::validate_known), but sends at most three batches of rays to `subject`.
+/// Like [`validate_known`](super::validate_known), but sends at most three batches of rays to `subject`,
+/// because each call of a runner takes long.
 ///
 /// # Errors
 /// If the program of the structure has failed.

@@ -20,7 +20,7 @@ pub struct Validation {
     /// Rays on which structure and reference return different hits, except ties.
     ///
     /// If the triangle tests differ, [`DepthRule::STRICT`](crate::oracle::DepthRule::STRICT) defines which differences
-    /// of `t` are ignored.
+    /// of `t` are ignored. Otherwise every bit of `t` counts.
     pub differing: u64,
     /// Errors of the structure, not of its triangle test. Zero for a correct structure.
     pub structure_errors: u64,

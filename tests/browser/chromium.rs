@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+/// A reply takes far less, even on a busy machine.
 const TIMEOUT: Duration = Duration::from_secs(300);
 
 pub struct Chromium {

@@ -55,7 +55,7 @@ fn a_corpus_is_the_same_again_and_what_it_says() {
     let hash: String = truth[24..32].iter().map(|byte| format!("{byte:02x}")).collect();
     assert_eq!(hash, rays.workload.hash());
 
-    // The corpora `d` and `e` have the same rays, except for camera rays.
+    // The corpora `d` and `e` have the same rays, except camera rays. A `.truth` file contains the hash of its rays.
     folder.prints("rays corpus d/cube.ply -o e --rays 40 --seed 2");
     for name in ["cube.ply", "cube-vertex.truth", "cube-offset.truth"] {
         assert!(corpus()[name] == files(&folder.path("e"))[name], "{name}");

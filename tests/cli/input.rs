@@ -51,7 +51,7 @@ fn terrain(triangles: &str) -> Folder {
     folder
 }
 
-/// The limit of the peak memory of a build, in bytes per triangle.
+/// The limit of the peak memory of a build, in bytes per triangle, in addition to the mesh.
 const BOUND: f64 = 200.0;
 
 #[test]

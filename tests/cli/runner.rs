@@ -131,6 +131,7 @@ fn a_program_that_fails_is_not_checked_and_not_wrong() {
 
 #[test]
 fn a_slow_program_has_time_for_each_reply() {
+    // All passes of the program together take longer than each of the limits.
     let slow = "--runner './nothing.sh slow' --limit 0.5 --runner-limit 1";
     nothing().shows(&format!("validate --hard flat_inplane --rays 16 {slow}"), &["is right on 16 rays"]);
 }

@@ -17,7 +17,7 @@ use sahara::simd::Level;
 use sahara::validate::adversarial::{near_the_largest_t, rounded_ends};
 use sahara::validate::{Reference, validate};
 
-/// Every eight-wide tree must occur with and without `batch=packets`.
+/// Every eight-wide tree must occur with and without `batch=packets`. Small leaves give deep trees on small meshes.
 pub const VARIANTS: [(&str, &str); 17] = [
     ("brute-force", ""),
     ("median-kd", ""),
@@ -98,7 +98,8 @@ impl Case {
                 return Err(blame(format!("exact: ray \"{ray}\": {found:?} in place of {truth:?}")));
             }
             let rational = || rational::nearest(ray, mesh.solid().map(|id| (id, mesh.corners(id))));
-            // Rational arithmetic is slow, so only every 20th ray is tested with rational arithmetic.
+            // Unlike the oracle, rational arithmetic shares no code with `exact`. Rational arithmetic is slow, so only
+            // every 20th ray is tested.
             if i % 20 == 0 && rational() != truth {
                 return Err(blame(format!("exact sums: ray \"{ray}\": {truth:?} in place of {:?}", rational())));
             }
@@ -123,7 +124,7 @@ impl Case {
     pub fn read(bytes: &[u8]) -> Self {
         let mut bytes = Bytes { left: bytes, kinds: (0..KINDS).collect() };
         let points = 3 + bytes.byte() as usize % 29;
-        // A wild mesh may have invalid coordinates or indices.
+        // A wild mesh may have invalid coordinates or indices. An invalid mesh ends the check, so few meshes are wild.
         let wild = bytes.byte() > 0xf8;
         let mixture = 1 + bytes.byte() % ((1 << (KINDS - 1)) - 1);
         bytes.kinds.retain(|kind| mixture >> kind & 1 == 1);

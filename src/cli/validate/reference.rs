@@ -27,7 +27,7 @@ const FILE_TESTS: u32 = 36;
 /// Triangle tests between two progress messages. Brute force runs these tests in about a second.
 const PROGRESS_TESTS: usize = 1 << 29;
 
-/// The structure in `--against`. `None` is brute force without a given triangle test.
+/// The structure in `--against`. `None` is brute force with the triangle test of each checked structure.
 pub struct ReferenceChoice(Option<Choice>);
 
 impl ReferenceChoice {
@@ -95,6 +95,7 @@ pub struct References<'a> {
 impl References<'_> {
     pub fn get(&mut self, test: &'static str, waiting: &ProgressBar) -> anyhow::Result<&ReferenceHits> {
         // With a structure in `--against`, all triangle tests except `exact` share one reference.
+        // `exact` does not round, so its reference must not excuse rounding.
         let key = (self.choice.0.is_none() || test == Exact::NAME).then_some(test);
         if !self.known.contains_key(&key) {
             let reference = self.choice.build(self.scene, test)?;

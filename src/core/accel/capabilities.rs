@@ -3,6 +3,8 @@
 use crate::geometry::{Hit, Ray};
 
 /// The features that a structure supports.
+///
+/// Rays that need an unsupported feature count as declined. A declined ray is neither right nor wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
     /// Whether the structure has a separate any-hit query. Without this query, any-hit results are not checked.
@@ -26,7 +28,7 @@ impl Capabilities {
 
     /// The name of an unsupported bound of `ray`. `None` if `ray` has no unsupported bound.
     pub fn declines(self, ray: &Ray) -> Option<&'static str> {
-        // A NaN `t_max` counts as a bound.
+        // A NaN `t_max` counts as a bound, because a structure that ignores `t_max` may return a hit.
         let (from_start, endless) = (ray.t_min <= 0.0, ray.t_max == f32::INFINITY);
         let t_max = (!self.t_max && !endless).then_some("t_max");
         if self.t_min || from_start { t_max } else { Some("t_min") }

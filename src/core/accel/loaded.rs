@@ -30,7 +30,7 @@ pub trait Remote {
     /// Nanoseconds of the build, measured by the other process.
     fn build_ns(&self) -> u64;
 
-    /// The reason for the failure. `None` if no failure has occurred.
+    /// The reason for the failure, as a clause. `None` if no failure has occurred.
     fn failure(&self) -> Option<String>;
 
     /// The median ratio of elapsed time to reported time. Very short queries are excluded. `None` if no query remains.

@@ -14,16 +14,16 @@ use crate::geometry::{Hit, Mesh, Ray};
 /// The reason why a build failed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
-    /// A configuration value is out of range or has no effect.
+    /// A configuration value is out of range or has no effect. The message names the option and the allowed values.
     #[error("{0}")]
     Config(String),
     /// The structure cannot be built over this mesh.
     #[error("{0}")]
     Mesh(String),
-    /// The system lacks a requirement of the structure.
+    /// The system lacks a requirement of the structure. The message should state a remedy.
     #[error("{0}")]
     Unavailable(String),
-    /// The external program of the structure failed.
+    /// The external program of the structure failed. The message is a clause.
     #[error("{0}")]
     Remote(String),
     /// The rays need a feature that the structure does not support.
@@ -61,7 +61,8 @@ pub trait Accel: Sized + Send + Sync + 'static {
     /// means that the triangle test is not shared.
     const TRIANGLE_TEST: &'static str = "own";
 
-    /// Deliberate deviations from the conventions of other structures, one clause each. Do not list defects.
+    /// Deliberate deviations from the contract, one clause each. Do not list defects. Deviations that change hits also
+    /// belong in [`CAPABILITIES`](Accel::CAPABILITIES). Otherwise they count as errors.
     const CONVENTIONS: &'static [&'static str] = &[];
 
     /// The events that the structure reports to the observer.
@@ -83,7 +84,7 @@ pub trait Accel: Sized + Send + Sync + 'static {
     ///
     /// The default implementation calls `closest_hit`. If [`Capabilities::t_max`] is `false`, the default
     /// implementation ignores a hit at or beyond `t_max`. A structure with the default implementation should set
-    /// [`Capabilities::any_hit`] to `false`.
+    /// [`Capabilities::any_hit`] to `false`. Otherwise, closest-hit times are reported as any-hit times.
     #[inline]
     fn any_hit<O: Observer>(&self, ray: &Ray, observer: &mut O) -> bool {
         let may_be_beyond = !Self::CAPABILITIES.t_max;

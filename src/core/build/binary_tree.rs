@@ -2,8 +2,8 @@
 
 use crate::geometry::Aabb;
 
-/// Nodes are in depth-first order. The subtree of the first child comes before the subtree of the second child. A tree
-/// without triangles has no nodes.
+/// Nodes are in depth-first order: a node, the subtree of its first child, the subtree of its second child. A subtree
+/// is therefore a range of nodes and a range of references. A tree without triangles has no nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BinaryTree {
     pub nodes: Vec<BinaryNode>,

@@ -12,14 +12,15 @@ const CORNERS: usize = 9;
 /// an error of at most 2 units of 2^-53 M. The final addition adds at most 1 unit. One interpolation therefore adds at
 /// most 11 units. At most seven planes clip a triangle. The total error is therefore at most 77 units.
 ///
-/// Clipping moves each plane outward by this bound.
+/// Clipping moves each plane outward by this bound. A point of the triangle in the cell therefore stays in the polygon,
+/// up to the error of the corners. This holds even for an edge of computed corners that is almost parallel to a plane.
 const ERROR: f64 = 128.0 / (1u64 << 53) as f64;
 
 /// A box around the triangle's part in `cell`, rounded outward. `known` is a box around the triangle's part in a larger
 /// cell. The result lies in `cell` and in `known`.
 ///
 /// Clips in f64 (Sutherland, Hodgman 1974). If the clipped box is empty, the result is the intersection of `known` and
-/// `cell`.
+/// `cell`. So rounding errors never drop a triangle that reaches into the cell.
 pub(crate) fn clipped_bounds(corners: [Vec3; 3], cell: &Aabb, known: &Aabb) -> Aabb {
     Polygon::clipped(corners, cell).corner_box().in_cut(known.intersection(*cell))
 }
@@ -201,7 +202,8 @@ mod tests {
         assert!(touched.contains(&Aabb::of_points([Vec3::ZERO])), "{touched:?}");
     }
 
-    /// The triangles have large coordinates. The planes have coordinates close to 0.
+    /// Planes close to 0 cut triangles with large coordinates. The error of a corner may exceed the distance of a
+    /// plane from 0.
     #[test]
     fn clipping_keeps_every_point_of_edges_near_planes() {
         use std::cmp::Ordering::{Equal, Greater, Less};

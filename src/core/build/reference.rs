@@ -11,6 +11,7 @@ pub(crate) const PARALLEL: usize = 4096;
 pub(crate) const CHUNK: usize = 2048;
 
 /// A triangle number and the box of the triangle's part in a node. The fourth lane of `low` has the bits of the number.
+/// Each corner of the box is one SIMD load.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Reference {

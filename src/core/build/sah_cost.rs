@@ -40,7 +40,7 @@ impl CostModel {
     }
 
     /// Cost of a subtree, multiplied by the half area of the subtree's box. `children` is the sum of the results of
-    /// `box_leaf` or `box_node` for both children.
+    /// `box_leaf` or `box_node` for the children.
     #[inline(always)]
     pub fn box_node(&self, area: f64, children: f64) -> f64 {
         self.step * area + children

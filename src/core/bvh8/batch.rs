@@ -68,6 +68,8 @@ impl HitBatch {
     const NONE: Self = Self { inputs: [[0.0; HITS]; INPUTS], rays: [0; HITS], ids: [0; HITS], len: 0 };
 
     /// Returns true if the batch is full. The caller must then call `finish`.
+    ///
+    /// Stores inputs instead of a copy of `depth`, because a copy loads fields that were just written and stalls.
     #[must_use]
     #[inline(always)]
     fn push<D: Depth>(&mut self, i: usize, ray: &Ray, depth: &D, id: u32) -> bool {

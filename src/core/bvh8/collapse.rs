@@ -144,7 +144,8 @@ impl<'a> Collapse<'a> {
         if let Some(root) = tree.nodes.first() {
             let whole = Some(root.bounds.half_area()).filter(|&whole| whole > 0.0).unwrap_or(1.0);
             Chooser { tree, costs, whole }.choose(0, &mut best, &mut vec![]);
-            // The root becomes a wide node even if the binary tree is a single leaf.
+            // The root becomes a wide node even if the binary tree is a single leaf. The traversals treat a leaf at the
+            // root as an empty tree.
             best[0].leaf = false;
         }
         Self { tree, best }

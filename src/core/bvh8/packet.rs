@@ -1,7 +1,9 @@
 //! Traces sixteen rays as a packet.
 //!
-//! **Packets and single rays find the same hits.** [`Frustum`] rejects only boxes that every ray misses. The
-//! nearest hit does not depend on the order in which hits are found.
+//! **Packets and single rays find the same hits.** [`Frustum`] rejects only boxes that every ray misses.
+//! [`RayPacket::meet`] computes crossings like `PreparedRay::cross`, so no ray misses a box with a nearer hit. If the
+//! test of eight rays cannot decide which hit is nearer, `ray_by_ray` searches the leaf again for the undecided rays.
+//! The nearest hit does not depend on the order in which hits are found.
 
 use std::mem::MaybeUninit;
 

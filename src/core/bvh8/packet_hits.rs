@@ -11,9 +11,9 @@ pub(super) const HALVES: usize = RAYS / WIDTH;
 /// If `T::ONE_STAGE` is true, a hit consists only of `t` and `ids`.
 pub(super) struct PacketHits<'a, T: TriangleTest> {
     blocks: &'a [LeafBlock<T>],
+    /// Upper bounds of the exact `t` of the hits. Without a hit, the last `t` that the ray accepts.
     t: [[f32; WIDTH]; HALVES],
-    /// Lower bounds of the exact `t` of the hits. The field `t` contains upper bounds. Without a hit, the lower bound
-    /// is infinite.
+    /// Lower bounds of the exact `t` of the hits. Without a hit, the lower bound is infinite.
     least: [[f32; WIDTH]; HALVES],
     /// The numbers of the hit triangles, or [`NONE`].
     ids: [[u32; WIDTH]; HALVES],

@@ -10,7 +10,8 @@ use crate::simd::{EightLanes, Level, each};
 use crate::traversal::leaf::{LeafBlock, NONE, Nearest, settle};
 use crate::triangle::{BETWEEN_BOUNDS, Depth, ORIGIN, TriangleTest, last_bits};
 
-/// Minimum number of active rays for `triangle_by_triangle`.
+/// Minimum number of active rays for `triangle_by_triangle`. Most rays of a smaller group hit no triangle, and
+/// `ray_by_ray` detects misses sooner. The minimum exceeds `WIDTH`, so both halves have active rays.
 const MIN_RAYS_BY_TRIANGLE: u32 = 12;
 
 pub(super) struct PacketState<'a, T: TriangleTest> {

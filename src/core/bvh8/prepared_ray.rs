@@ -43,6 +43,7 @@ pub(super) struct PreparedRay {
     pub octant: usize,
 }
 
+/// Enlarges inverses by 16 units of 2^-24 (see [`PreparedRay`]).
 pub(super) const ENLARGED: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 /// The rows (0 to 5) of the near planes and the rows of the far planes, by axis.

@@ -108,6 +108,7 @@ impl<'a, const ANY: bool> Stack<'a, ANY> {
                 // Keeps the compiler from replacing the predicted branches by a look-up.
                 std::hint::black_box(());
                 let lane = if ANY { place } else { (order >> (3 * place) & 7) as usize };
+                // Reading the child from the node is faster than reading back the entry just written.
                 return Some(node.children[lane]);
             }
         }

@@ -17,7 +17,7 @@ use crate::traversal::line::after;
 use crate::traversal::pages;
 use crate::triangle::TriangleTest;
 
-/// Maximum number of active rays.
+/// Maximum number of active rays: enough to hide the latency of memory, few enough for the first-level cache.
 const SLOTS: usize = 8;
 
 struct StreamRay<'a, T: TriangleTest> {

@@ -111,6 +111,7 @@ fn scattered(i: u32) -> Ray {
 
 #[test]
 fn several_rays_under_way_find_what_each_finds_alone() {
+    // Trees: empty, of one block, of several blocks below the root, and of many levels.
     for n in [0, 3, 30, 3000] {
         let mesh = Arc::new(soup(n, 5));
         let mut rays: Vec<Ray> = (0..500).map(scattered).collect();

@@ -5,11 +5,12 @@
 //! - The build rounds the boxes of clipped triangles outward. So the box of some leaf with this triangle contains p.
 //! - The boxes of all nodes above this leaf contain p.
 //! - Before a closest-hit query skips a box around p, the query has found a hit with a computed t below t* (see
-//!   [`PreparedRay`]).
+//!   [`PreparedRay`]). `kdtree/traverse.rs` explains why this case is correct.
 //! - Before an any-hit query skips a box around p, the query has found a hit.
 //!
 //! A closest-hit query visits children in the order that the node stores for the octant of the ray's direction. An
-//! any-hit query visits child leaves before child nodes. Among child nodes, larger boxes come first.
+//! any-hit query visits child leaves before child nodes. Among leaves and among nodes, larger boxes come first, because
+//! large boxes occlude most.
 //!
 //! # References
 //! Nah, Manocha: SATO: Surface area traversal order for shadow ray tracing, 2014.

@@ -23,6 +23,7 @@ impl Expansion {
         difference
     }
 
+    /// `x` times 2 to the power of `exponent`. Within the asserted ranges, no term overflows or underflows.
     pub fn of_integer(mut x: i128, exponent: i32) -> Self {
         debug_assert!(x.unsigned_abs() < 1 << 126 && (-1022..=800).contains(&exponent));
         let scale = f64::from_bits(((1023 + exponent) as u64) << 52);
@@ -83,16 +84,16 @@ impl Expansion {
         self.0.iter_mut().for_each(|term| *term = -*term);
     }
 
-    /// The sign of the number is the sign of the last term. The last term has the largest magnitude.
+    /// The sign of the number is the sign of the last term, which exceeds the sum of all other terms in magnitude.
     pub fn sign(&self) -> Ordering {
         self.0.last().map_or(Ordering::Equal, |largest| largest.total_cmp(&0.0))
     }
 
     /// The value of the number, with a relative error of at most 2^-52.
     ///
-    /// The bits of two terms from `add` are never adjacent (Shewchuk: Grow-Expansion). Each term from `of_integer` is
-    /// at most 2^-53 of the next term. So the magnitudes of the partial sums grow. The rounding errors of the partial
-    /// sums add up to at most twice the error bound of the last sum.
+    /// The bits of two terms from `add` are never adjacent, because sums round to even (Shewchuk: Grow-Expansion). Each
+    /// term from `of_integer` is at most 2^-53 of the next term. So the magnitudes of the partial sums grow. The
+    /// rounding errors of the partial sums add up to at most twice the error bound of the last sum.
     pub fn approximate(&self) -> f64 {
         self.0.iter().fold(0.0, |sum, term| sum + term)
     }

@@ -29,7 +29,7 @@ pub struct ExactT {
 /// direction or a corner is not finite.
 ///
 /// Let the corners be a, b and c. The line misses the triangle if two of the edges ab, bc and ca have opposite results
-/// of [`side`].
+/// of [`side`]. Otherwise, the line meets the triangle or is parallel to the triangle.
 ///
 /// # References
 /// Segura, Feito: Algorithms to test ray-triangle intersection. Comparative study. WSCG 2001.
@@ -54,7 +54,8 @@ pub fn height(origin: Vec3, corners: [Vec3; 3]) -> f64 {
 
 /// The side on which the line of `ray` passes the edge from p to q.
 ///
-/// The result is the sign of direction . ((p - origin) x (q - origin)). All coordinates must be finite.
+/// The result is the sign of direction . ((p - origin) x (q - origin)). The result is `Equal` if and only if the line
+/// and the line through p and q lie in one plane. All coordinates must be finite.
 #[inline(always)]
 pub fn side(ray: &Ray, edge: [Vec3; 2]) -> Ordering {
     tracked::side(ray, edge).unwrap_or_else(|| side_of_any_size(ray, edge))

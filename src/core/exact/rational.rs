@@ -1,4 +1,5 @@
-//! A second implementation of [`hit`](super::hit()) for tests, in rational numbers.
+//! A second implementation of [`hit`](super::hit()) for tests, in rational numbers. To stay independent, it shares only
+//! `Ray` and `Vec3` with the first implementation.
 //!
 //! The functions panic if the origin, the direction or a corner is not finite. As an exception, [`nearest`] returns
 //! `None` if the origin or the direction is not finite.

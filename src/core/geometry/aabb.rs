@@ -49,7 +49,7 @@ impl Aabb {
         self.min * 0.5 + self.max * 0.5
     }
 
-    /// Half of the surface area (Goldsmith, Salmon 1987). A negative edge length counts as 0.
+    /// Half of the surface area (Goldsmith, Salmon 1987), in `f64` to avoid overflow. Negative lengths count as 0.
     #[inline]
     pub fn half_area(&self) -> f64 {
         half_area(self.min.as_dvec3(), self.max.as_dvec3())

@@ -6,7 +6,7 @@ use super::Aabb;
 
 /// A set of triangles with finite coordinates and valid vertex indices.
 ///
-/// No ray hits a degenerate triangle (see [`Mesh::is_degenerate`]).
+/// Degenerate triangles (see [`Mesh::is_degenerate`]) keep their indices, but no ray hits them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     positions: Vec<Vec3>,

@@ -31,7 +31,7 @@ impl Transform {
         Self { linear, translation: translation.as_dvec3() }
     }
 
-    /// Whether the transform reverses the orientation of triangles.
+    /// Whether the transform reverses the orientation of triangles. If true, the caller must restore the orientation.
     pub fn is_mirror(&self) -> bool {
         self.linear.determinant() < 0.0
     }
@@ -44,7 +44,7 @@ impl Transform {
     /// `R * S * normal`, normalized. If this product is zero, the result is zero.
     ///
     /// The inverse transpose of `R * S` would be correct for normals. The scenes come from a course that uses
-    /// `R * S` for normals.
+    /// `R * S` for normals. These scenes stretch only flat squares, whose normals stay correct.
     pub fn normal(&self, normal: Vec3) -> Vec3 {
         (self.linear * normal.as_dvec3()).normalize_or_zero().as_vec3()
     }
@@ -54,7 +54,8 @@ fn rows(rows: [[f64; 3]; 3]) -> DMat3 {
     DMat3::from_cols_array_2d(&rows).transpose()
 }
 
-/// Sine and cosine, exact at multiples of 90 degrees. `libm` computes the same bits on every machine.
+/// Sine and cosine, exact at multiples of 90 degrees. There, `libm` is inexact, because angles in radians are rounded.
+/// `libm` computes the same bits on every machine.
 fn sin_cos_degrees(degrees: f32) -> (f64, f64) {
     let degrees = f64::from(degrees) % 360.0;
     match degrees / 90.0 {

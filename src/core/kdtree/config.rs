@@ -21,7 +21,7 @@ pub struct KdConfig {
     /// With [`Stop::Report`] or [`Stop::Leaf`], a node with fewer than `leaf` triangles is a leaf.
     /// Must be at least 1.
     pub leaf: u32,
-    /// Whether a node of exactly `leaf` triangles may be split.
+    /// Whether a node of exactly `leaf` triangles may be split, which the report does not specify.
     pub limit: Limit,
     /// [`Stop::Report`] makes a leaf if at least this fraction of triangles would be in both children.
     /// Must be in (0, 1].
@@ -56,7 +56,7 @@ pub enum Plane {
     SpatialMedian,
     /// The median of the centroids of the node's triangles.
     CentroidMedian,
-    /// The plane of least SAH cost among a few dozen per axis (Hunt, Mark, Stoll 2006).
+    /// The plane of least SAH cost of at most 34 per axis, including both ends (Hunt, Mark, Stoll 2006).
     /// In large nodes, a sample of triangles estimates the cost.
     SahBinned,
     /// The plane of least SAH cost among all faces of the boxes of clipped triangles.
@@ -73,7 +73,8 @@ pub enum AxisRule {
     Longest,
 }
 
-/// The condition for a leaf. A depth limit and `duplication` also make leaves.
+/// The condition for a leaf. A depth limit of about 8 + 1.3 log2 n and `duplication` also make leaves. With a median, a
+/// node is also a leaf if its split would be the third in a row without progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stop {
@@ -143,7 +144,7 @@ pub enum Equal {
 pub enum Exit {
     /// When no nearer hit can follow.
     Nearest,
-    /// After the first leaf with a hit. Nearer hits may be lost.
+    /// After the first leaf with a hit at any distance, as the report literally says. Nearer hits may be lost.
     FirstLeaf,
 }
 

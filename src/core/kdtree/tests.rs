@@ -44,6 +44,7 @@ fn configs() -> Vec<KdConfig> {
     ]
 }
 
+/// Rays close to the floor cross flat cells at a negative `t` nearer to 0 than the slack of crossings.
 #[test]
 fn rays_that_leave_a_flat_floor_test_none_of_its_triangles() {
     let corner = |i: usize, j: usize| Vec3::new(i as f32, 0.0, j as f32);
@@ -100,6 +101,7 @@ fn hits_near_the_largest_t_are_found() {
     }
 }
 
+/// The first cuts in the middle leave all triangles on one side. Only the floor is also on the other side.
 #[test]
 fn the_middle_of_a_cell_finds_a_small_mesh_on_a_large_floor() {
     let mut rng = rand_pcg::Pcg32::seed_from_u64(9);

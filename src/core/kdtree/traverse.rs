@@ -2,8 +2,11 @@
 //!
 //! **No hit is lost**, except with [`Exit::FirstLeaf`]. Let p be the point of a hit on a triangle.
 //!
-//! - At least one leaf references the triangle and has p in its closed cell.
+//! - The build clips references outward or not at all. So at least one leaf references the triangle and has p in its
+//!   closed cell.
 //! - A child is skipped only if the ray's interval in this child is empty or begins after the nearest known hit.
+//! - If the child of p is skipped, the known hit is nearer, except for the error of its triangle test. The exact test
+//!   has no such error: the known `t` is never below the exact `t` of the known hit.
 //! - The ray's interval in a child includes slack for the rounding of plane crossings (see [`Line`]).
 //! - A plane crossing may overflow to infinity. For plane intervals, [`finite_entry`] makes an infinite entry finite.
 //!   For child boxes, [`open_end`] moves an end near the largest float to infinity.
@@ -139,8 +142,8 @@ fn by_intervals<O: Observer>(
         let t = line.crossing(axis, node.split());
         let (first, second) = if line.backward(axis) { (node.above(), at + 1) } else { (at + 1, node.above()) };
 
-        // The comparisons of `t` with `t1` and `t0` need no slack, because `t0` and `t1` include enough slack. If `t`
-        // is NaN, both children get the whole interval.
+        // The comparisons of `t` with `t1` and `t0` need no slack, because `t0` and `t1` are moved outward by more than
+        // twice the error of a crossing. If `t` is NaN, both children get the whole interval.
         if t > t1 {
             at = first;
         } else if t < t0 {

@@ -10,10 +10,11 @@
 //! operation overflows or underflows, and every operation has a relative error of at most u.
 //!
 //! *Error bound.* A triple product `x . cross(y, z)` is the sum of six terms `x_i y_j z_k`. Rounding multiplies each
-//! term by at most eight factors (1 + e) with |e| <= u. Let P be the sum of the magnitudes of the terms. Let
-//! g = 8u / (1 - 8u). The error of the computed triple product is at most g P (Higham 2002, section 3.1). The computed
-//! sum of magnitudes is at least (1 - g) P. Hence the error is at most 16u times the computed sum of magnitudes. The
-//! multiplication by 16u is exact, because 16u is a power of two.
+//! term by at most eight factors (1 + e) with |e| <= u: three for the subtractions of its components, two for products,
+//! three for sums. Let P be the sum of the magnitudes of the terms. Let g = 8u / (1 - 8u). The error of the computed
+//! triple product is at most g P (Higham 2002, section 3.1). The computed sum of magnitudes is at least (1 - g) P.
+//! Hence the error is at most 16u times the computed sum of magnitudes. The multiplication by 16u is exact, because 16u
+//! is a power of two.
 //!
 //! # References
 //! Shewchuk: Adaptive precision floating-point arithmetic and fast robust geometric predicates. 1997 (the idea of the
@@ -68,6 +69,7 @@ impl TripleProduct {
     }
 
     fn sign(self) -> Option<Ordering> {
+        // If the error bound is 0, all six terms are exactly 0, because no product underflows.
         let is_known = self.value.abs() > self.error || self.error == 0.0;
         is_known.then(|| self.value.partial_cmp(&0.0))?
     }

@@ -1,4 +1,5 @@
-//! Exact hits of rays, to check the hits of structures.
+//! Exact hits of rays, to check the hits of structures. The oracle shares only the module `exact` and the types of
+//! meshes, rays and boxes with the structures.
 
 mod filter;
 mod nearest_search;

@@ -15,7 +15,8 @@ pub struct DepthRule {
 }
 
 impl DepthRule {
-    /// The limits of the relative error are 1 % (nearest primitives) and 0.1 % (other primitives).
+    /// The limits of the relative error are 1 % (nearest primitives) and 0.1 % (other primitives). Larger errors are
+    /// visible in a picture.
     pub const COARSE: Self = Self { right: 1e-2, other: 1e-3, ulps: 0.0 };
 
     /// The limit of the error is the maximum of 4 ulps and `1e-6 * t`.

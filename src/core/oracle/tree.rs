@@ -6,8 +6,11 @@
 //! Let a ray hit a triangle of a node at the exact `t`. On one axis, let the box of the node reach from `low` to
 //! `high`. Let `o` and `d` be the components of the origin and the direction on this axis. If `d` is 0, `o` is between
 //! `low` and `high`. Otherwise `t` is between `(low - o) / d` and `(high - o) / d`. In `f64`, each quotient has two
-//! roundings. No quotient overflows or underflows. [`Span::outward`] moves each quotient outward by at least the
-//! rounding error.
+//! roundings. A nonzero quotient has a magnitude between 2^-277 and 2^278, so no quotient overflows or underflows.
+//! [`Span::outward`] moves each quotient outward by at least the rounding error.
+//!
+//! A node is skipped only if the intervals of the three axes and [`t_min`, `bound`] have no common `t`. The bound is
+//! never less than the exact `t` of the nearest hit so far.
 
 use super::filter::Span;
 use crate::geometry::{Aabb, Mesh, Ray};
@@ -37,7 +40,7 @@ enum NodeKind {
 const LEAF: usize = 4;
 
 /// The stack holds at most one node for each inner node on a path from the root. A path has at most 28 inner nodes,
-/// because a mesh has at most 2^30 triangles.
+/// because a mesh has at most 2^30 triangles and each child has half of them. A leaf holds up to `LEAF` triangles.
 const STACK: usize = 32;
 
 impl Tree {
@@ -73,7 +76,7 @@ impl Tree {
     /// Calls `test` for every triangle that `ray` hits at a `t` of at most `bound`. Other triangles may also be tested.
     /// `ray` must be valid.
     ///
-    /// The result of `test` replaces `bound`. The result must not exceed the previous `bound`.
+    /// The result of `test` replaces `bound`. Triangles that are hit only beyond the new `bound` may be left out.
     pub fn visit(&self, ray: &Ray, mut bound: f64, mut test: impl FnMut(u32) -> f64) {
         let enter = |index: u32, bound: f64| Some((index, near(ray, &self.nodes.get(index as usize)?.bounds, bound)?));
         let mut stack = [(0, 0.0); STACK];

@@ -5,8 +5,8 @@ use super::{Arithmetic, EightLanes, Lanes};
 
 /// Eight lanes in one register, for machines with AVX2 and FMA. `MASKS = true` also requires AVX-512 F and VL.
 ///
-/// Only [`dispatch`](super::dispatch) may use this type. `dispatch` must use this type only if the machine has the
-/// instructions.
+/// The type is private to `simd`. Only [`dispatch`](super::dispatch) may use it, in functions that are compiled for
+/// the instructions, and only if the machine has them.
 ///
 /// Loads and stores need no alignment. An array of eight `f32` or eight `u32` is as large as a register.
 #[derive(Clone, Copy, Debug)]

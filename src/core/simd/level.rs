@@ -12,7 +12,8 @@ use super::{EightLanes, Portable};
 ///
 /// Searches find the same hits at every level, bit for bit.
 ///
-/// The machine may lack `Avx2` and `Avx512`. Other crates cannot construct these levels:
+/// A level is proof that the machine has the instructions, so [`dispatch`] needs no check. The machine may lack `Avx2`
+/// and `Avx512`. Other crates cannot construct these levels:
 ///
 /// ```compile_fail,E0603
 /// let level = sahara_core::simd::Level::Avx512;
@@ -53,7 +54,8 @@ pub trait Kernel {
 static CURRENT: AtomicU8 = AtomicU8::new(UNCHOSEN);
 const UNCHOSEN: u8 = u8::MAX;
 
-/// Each level adds a compiled copy of every kernel. Without the feature `all-levels`, a build for AVX-512 omits `Avx2`.
+/// Each level adds a compiled copy of every kernel. Without the feature `all-levels`, a build for AVX-512 omits `Avx2`,
+/// and a build for AVX2 without AVX-512 omits `Avx512`.
 const WITH_AVX2: bool =
     cfg!(all(target_arch = "x86_64", any(feature = "all-levels", not(target_feature = "avx512vl"))));
 const WITH_AVX512: bool = cfg!(all(
@@ -64,7 +66,7 @@ const WITH_AVX512: bool = cfg!(all(
 impl Level {
     const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// The name on the command line.
+    /// The name on the command line and in exports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Portable => "portable",
@@ -153,8 +155,8 @@ impl FromStr for Level {
 pub fn dispatch<K: Kernel>(level: Level, kernel: K) -> K::Output {
     debug_assert!(level.is_available());
     match level {
-        // SAFETY: the machine has the instructions. Callers obtain this level only from `available` or `current`. Both
-        // functions return this level only after `is_available` has detected the instructions.
+        // SAFETY: the machine has the instructions. Other crates cannot construct this level. Callers obtain it only
+        // from `available` or `current`, which return it only after `is_available` has detected the instructions.
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 if WITH_AVX2 => unsafe { avx2(kernel) },
         // SAFETY: the machine has the instructions, as for `Avx2`.

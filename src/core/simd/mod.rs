@@ -17,7 +17,8 @@ pub use vector::LaneVec3;
 
 /// `N` lanes of one float type.
 ///
-/// Arithmetic follows IEEE 754 in each lane. Only `mul_add_loosely` and `mul_sub_loosely` may fuse operations.
+/// Arithmetic follows IEEE 754 in each lane. Only `mul_add_loosely` and `mul_sub_loosely` may fuse operations. Every
+/// comparison with NaN is false.
 pub trait Arithmetic<const N: usize>: Copy {
     /// The type of one lane.
     type Scalar: Copy + Default;

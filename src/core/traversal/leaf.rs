@@ -89,7 +89,7 @@ pub(crate) struct Mailbox([u32; 8]);
 impl Mailbox {
     pub const EMPTY: Self = Self([NONE; 8]);
 
-    /// Returns whether the mailbox already contained `id`.
+    /// Stores `id`. Returns whether the mailbox already contained `id`.
     #[inline(always)]
     fn visit(&mut self, id: u32) -> bool {
         std::mem::replace(&mut self.0[(id & 7) as usize], id) == id
@@ -126,7 +126,8 @@ pub(crate) fn search<'a, const ANY: bool, L: EightLanes, T: TriangleTest, O: Obs
     }
 }
 
-/// Not inlined, because inlined code would take registers from the traversal.
+/// Not inlined, because inlined code would take registers from the traversal. The tail calls of [`settle_closely`] must
+/// stay the only calls, because any other call would save registers to the stack.
 #[inline(never)]
 pub(crate) fn settle<'a, T: TriangleTest>(
     block: &'a LeafBlock<T>,
@@ -136,6 +137,7 @@ pub(crate) fn settle<'a, T: TriangleTest>(
     nearest: &mut Nearest<T::Depth<'a>>,
 ) {
     while candidates != 0 {
+        // `% BLOCK` saves a bounds check.
         let lane = candidates.trailing_zeros() as usize % BLOCK;
         let id = block.ids[lane];
         // A search of another leaf may already have found triangle `id`.
@@ -193,6 +195,7 @@ fn settle_closely<'a, T: TriangleTest>(
     }
 }
 
+/// The caller prepares the ray. Returning a prepared ray would copy values just written, which stalls the processor.
 #[inline(always)]
 pub(crate) fn start<'a, T: TriangleTest>(ray: &Ray) -> Option<(f32, Nearest<T::Depth<'a>>)> {
     let (t_min, t_max) = ray.interval();

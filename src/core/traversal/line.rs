@@ -9,18 +9,23 @@ use crate::simd::{Lanes, each};
 ///
 /// **Slack.** Let o and d be the components of the ray's origin and direction along one axis. The crossing with the
 /// plane at s is computed as `(s - o) * (1 / d)`, with three roundings. The relative error is at most 3.01 * 2^-24. If
-/// the product underflows, the absolute error is at most 2^-148. [`before`] and [`after`] move a crossing by more than
-/// twice its error. Hence the slack covers the errors of two compared crossings.
+/// the product underflows, the absolute error is at most 2^-148. [`before`] and [`after`] move a crossing by 8 * 2^-24
+/// of its value and by 2^-126. After rounding, more than 6.9 * 2^-24 remain, which is more than twice the error. Hence
+/// the slack covers the errors of two compared crossings. The sign of a crossing is exact, because a difference of
+/// floats has the exact sign.
 ///
-/// **Undefined crossings.** If the ray lies in a plane, the crossing with this plane is NaN. If `1 / d` overflows or is
-/// subnormal, all crossings on this axis are NaN. If any `s - o` may overflow, all crossings are NaN. Traversals treat
-/// NaN as a crossing at an unknown `t`.
+/// **Undefined crossings.** A ray parallel to a plane and outside it has an infinite crossing, which compares
+/// correctly. If the ray lies in a plane, the crossing with this plane is NaN. If `1 / d` overflows or is subnormal,
+/// all crossings on this axis are NaN. If any `s - o` may overflow, all crossings are NaN. Traversals treat NaN as a
+/// crossing at an unknown `t`.
 ///
 /// **Ends of the interval.** An interval may end at the `t` of a hit. The triangle test may have rounded this `t` down.
 /// The relative error of this rounding is at most 2^-24. The slack of [`before`] also covers this error.
 ///
-/// **Overflow.** A crossing near the largest float may be computed as infinity, beyond every finite end. Traversals
-/// therefore limit entries with [`finite_entry`], or raise ends with [`open_end`] or [`after`].
+/// **Overflow.** Let M be the largest float. A crossing is computed as infinity only if its exact value exceeds
+/// (1 - 2.6 * 2^-24) M. An infinite entry would be beyond every finite end. Traversals therefore limit entries with
+/// [`finite_entry`], or raise ends with [`open_end`] or [`after`], which turn every end above (1 - 7.5 * 2^-24) M into
+/// infinity. An infinite exit is correct.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
     origin: [f32; 3],
@@ -115,7 +120,7 @@ impl Line {
             let (low, high) = (self.crossing(axis, cell.min[axis]), self.crossing(axis, cell.max[axis]));
             let (near, far) = if self.backward[axis] { (high, low) } else { (low, high) };
             // `before` keeps a negative entry below `t0`. If the computed exit is negative, the exact exit is also
-            // negative.
+            // negative. Without slack, a ray that leaves a flat floor from just above misses the floor's box.
             let (near, far) = (before(near), if far < 0.0 { far } else { after(far) });
             t0 = if near > t0 { near } else { t0 };
             t1 = if far < t1 { far } else { t1 };

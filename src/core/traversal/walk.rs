@@ -34,7 +34,7 @@ pub(crate) fn walk_without_observer<const ANY: bool, L: EightLanes, W: Walk>(str
     }
 }
 
-/// Portable lanes give the same counts on every machine.
+/// Portable lanes give the same counts on every machine. Not inlined, to compile one copy.
 #[inline(never)]
 fn walk_with_observer<const ANY: bool, W: Walk, O: Observer>(
     structure: &W,

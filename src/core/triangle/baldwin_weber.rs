@@ -7,6 +7,8 @@ use crate::simd::{LaneVec3, Lanes, indexed};
 ///
 /// Rays may pass between triangles that share an edge. Rounding errors grow with the distance from the world's origin.
 ///
+/// Unlike in the paper, all twelve numbers of a matrix are stored, because the trivial column differs per lane.
+///
 /// # References
 /// Baldwin, Weber: Fast ray-triangle intersections by coordinate transformation. Journal of Computer Graphics
 /// Techniques 5(3), 2016.
@@ -33,6 +35,7 @@ fn to_unit(corners: [Vec3; 3]) -> [(DVec3, f64); 3] {
     if det == 0.0 {
         return [(DVec3::ZERO, 0.0); 3];
     }
+    // The third basis vector is arbitrary.
     let free = DVec3::AXES[longest];
     [edge2.cross(free), free.cross(edge1), normal].map(|row| (row / det, -row.dot(a) / det))
 }

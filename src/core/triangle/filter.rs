@@ -166,7 +166,7 @@ impl<L> Candidates<L> {
 /// **No hit is lost.** Let det be nonzero. Multiply u, v and det - u - v by the sign of det. The line meets the closed
 /// triangle if and only if no product is negative. The errors of u and v are at most 14.2 w D E |s|. The error of det
 /// is at most 42.6 w D E E. These errors and the rounding of det - (u + v) add up to at most k = 40 w D E (|s| + 2 E).
-/// The factor 40 also covers the rounding of k.
+/// The factor 40 also covers the rounding of k. The sum of m and the slack, defined below, has the exact sign.
 ///
 /// From here, u and v are multiplied by the computed sign of det. Let m be the minimum of u, v and |det| - u - v.
 ///
@@ -193,7 +193,8 @@ impl<L> Candidates<L> {
 /// **Bounds of `t`.** Let det' and h' be the computed values. If |det'| exceeds 16 dd, the error of t' = h' / |det'| is
 /// at most 16/15 (dh + |t'| dd) / |det'|. The code uses 9/8 instead of 16/15 to cover the rounding of the error. The
 /// code adds 8 w |t'| to cover the rounding of t' and of the bounds. [`TINY`] covers the underflow when the bounds are
-/// multiplied by `scale`.
+/// multiplied by `scale`. No relevant value underflows earlier: m > 2 k implies |s| > 2^-18 E, and |det'| > 16 [`TINY`]
+/// implies E > 2^-63, so the error exceeds 2^-104.
 #[inline(always)]
 pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
     ray: &FilterRay,
@@ -210,7 +211,8 @@ pub(super) fn filter_block<const N: usize, L: Lanes<N>>(
 
 /// The first result contains only rays that do not hit the triangle at a `t` up to `to`.
 ///
-/// One factor scales all directions. No scaled component has a magnitude above 2.
+/// One factor scales all directions. The proof of [`filter_block`] requires only that no scaled component exceeds 2 in
+/// magnitude, and that a component that becomes denormal has an error of at most 2^-150.
 #[inline(always)]
 pub(super) fn filter_eight<const N: usize, L: EightLanes>(
     rays: &EightRays<L>,

@@ -82,7 +82,7 @@ pub trait TriangleTest: Send + Sync + 'static {
 
     /// An upper bound of the `t` of hits, for a valid ray whose interval ends at `t_max`.
     ///
-    /// The default is the largest float below `t_max`.
+    /// The default is the largest float below `t_max`. The default suits tests that compare a rounded `t`.
     #[inline(always)]
     fn last(t_max: f32) -> f32 {
         // This equals `next_down`, because the `t_max` of a valid ray is positive.
@@ -157,7 +157,8 @@ pub trait TriangleTest: Send + Sync + 'static {
     /// If true, [`decide`](Self::decide) and [`Depth::of`] must never return `None`.
     const ONE_STAGE: bool = false;
 
-    /// Whether structures can trace several rays at once with this test.
+    /// Whether structures can trace several rays at once with this test. The code for this takes most of the compile
+    /// time.
     const BATCHED: bool = false;
 
     /// Whether the test implements [`meet_eight`](Self::meet_eight).

@@ -3,7 +3,8 @@ use crate::simd::{LaneVec3, Lanes, each};
 
 /// Edge test in `f32`. A ray hits a triangle if the ray passes all three edges on the same side.
 ///
-/// No ray passes between two triangles at a common edge. A ray through a vertex may miss all triangles at the vertex.
+/// Two triangles compute the same number for a common edge, with opposite signs. So no ray passes between the
+/// triangles. A ray through a vertex may miss all triangles at the vertex.
 ///
 /// In scenes of size 1e13 and above, products of three lengths may overflow. In scenes of size below 1e-12, products of
 /// three lengths may underflow.

@@ -6,7 +6,8 @@ use crate::simd::{Lanes, each, indexed};
 
 /// The watertight test in `f32`. The test shears space to align the ray with the third axis.
 ///
-/// No ray passes between the triangles of a closed mesh.
+/// No ray passes between the triangles of a closed mesh, if coordinate differences do not overflow. All triangles at a
+/// corner shear the corner to the same point, and the sign of each edge value is exact for the sheared corners.
 ///
 /// Shearing causes rounding errors. A ray within an ulp of an edge may hit the triangle on the wrong side of the edge.
 /// The `t` of a hit on a sliver may be off by thousands of ulps. The test may lose hits at `t` above 3e26.
@@ -77,6 +78,7 @@ impl TriangleTest for Watertight {
         let size = det.flip_sign(det);
         let all = L::splat(0.0).le(zero);
         let ordinary = L::splat(SMALL).le(size) & size.le(L::splat(LARGE));
+        // A nonzero value has the exact sign, because rounding is monotonic and no operation is fused.
         if ordinary != all || volumes.iter().any(|v| zero.le(*v) & v.le(zero) != 0) {
             volumes = in_f64(volumes, xs, ys);
         }

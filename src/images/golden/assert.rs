@@ -10,7 +10,7 @@ use super::{GoldenError, Match, PictureError, failure, file};
 /// If this environment variable has the value `update`, [`assert_image`] writes golden images instead of comparing.
 pub const UPDATE: &str = "SAHARA_GOLDEN";
 
-/// The path is relative to the current directory. In tests, the current directory is the folder of the crate.
+/// The folder for pages, relative to the current directory. In tests, the current directory is the folder of the crate.
 const OUT: &str = "out/golden";
 
 /// Compares all channels of `actual`, including alpha, with the golden image at `path`.
@@ -42,7 +42,7 @@ const OUT: &str = "out/golden";
 /// If `how` rejects `actual`. If the size, channels or bits per channel differ. If the golden image cannot be read or
 /// written.
 ///
-/// If the comparison fails, the message contains the path of a page with the two pictures and the difference. The page
+/// If the pictures differ, the message contains the path of a page with the two pictures and the difference. The page
 /// is in `out/golden/NAME`. `NAME` is the file name of the golden image without the extension. Without the feature
 /// `page`, the message contains the path of the folder `out/golden/NAME` instead.
 #[track_caller]
@@ -59,7 +59,7 @@ pub fn assert_image(path: impl AsRef<Path>, actual: impl Into<DynamicImage>, how
 
 /// Like [`assert_image`], but returns the error. The function never writes the golden image.
 ///
-/// The pictures of a failed comparison are written to a folder in `out`.
+/// If the pictures differ, they are written to a folder in `out`.
 ///
 /// # Errors
 /// If `how` rejects `actual`. If the size, channels or bits per channel differ. If the golden image cannot be read.

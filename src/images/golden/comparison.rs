@@ -34,6 +34,7 @@ pub struct Comparison {
     /// `None` if `measures` is `None` or the rule is [`Match::Exact`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub limit: Option<Limit>,
+    /// `None` if the pictures are equal or cannot be compared.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measures: Option<Measures>,
 }

@@ -53,6 +53,8 @@ pub fn pixels_over(one: &DynamicImage, other: &DynamicImage, difference: f64) ->
     gaps(one, other).filter(|gap| gap * own > limit).count()
 }
 
+/// Only equal pixels are black, because `ceil` never rounds a difference to 0.
+///
 /// # Panics
 /// If the layouts differ.
 pub fn difference_picture(one: &DynamicImage, other: &DynamicImage) -> RgbImage {

@@ -11,7 +11,7 @@ use crate::escaped::Escaped as _;
 use crate::output::{OutputError, OutputFile};
 use crate::render::png_encoder;
 
-/// The maximum size, in MiB, of a file plus its decoded pixels.
+/// The maximum size, in MiB, of a file plus its decoded pixels. The decoder needs additional memory.
 const LARGEST: u64 = 512;
 
 #[derive(Debug, thiserror::Error)]
@@ -107,7 +107,7 @@ pub(super) fn write_noted(path: &Path, picture: &DynamicImage, note: Option<&str
 /// The encoding must be deterministic, because `is_own` compares bytes.
 pub(super) fn encode(picture: &DynamicImage, note: Option<&str>) -> ImageResult<Vec<u8>> {
     let mut bytes = vec![];
-    // `write_image` returns an error for a layout that PNG does not support.
+    // Unlike other functions of `image`, `write_image` rejects layouts that PNG does not support.
     let [width, height] = [picture.width(), picture.height()];
     png_encoder(&mut bytes).write_image(picture.as_bytes(), width, height, picture.color().into())?;
     if let Some(note) = note {
@@ -241,7 +241,8 @@ mod tests {
             refusal(other);
         }
 
-        // 16-bit RGB pictures with the sizes 16,384 x 16,384, (2^31 - 1) x 1, and (2^31 - 1) x (2^31 - 1).
+        // These 16-bit RGB pictures are rejected before they are decoded. Their sizes are 16,384 x 16,384,
+        // (2^31 - 1) x 1, and (2^31 - 1) x (2^31 - 1).
         for text in [
             "iVBORw0KGgoAAAANSUhEUgAAQAAAAEAAEAIAAAB2OluQAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",
             "iVBORw0KGgoAAAANSUhEUn////8AAAABEAIAAAB/xHjJAAAADElEQVR4nGNgoD0AAABkAAGGZDw1",

@@ -1,4 +1,5 @@
-//! Compares pictures of any renderer with golden images. [`assert_image`] is for the tests of other crates.
+//! Compares pictures of any renderer with golden images. Every exact structure must render the same pixels of a
+//! built-in scene. [`assert_image`] is for the tests of other crates.
 //!
 #![doc = include_str!("GOLDEN.md")]
 

@@ -69,7 +69,8 @@ impl SceneGolden {
         &self.path
     }
 
-    /// The path for messages. For a built-in scene, the path is relative to the source tree.
+    /// The path for messages. For a built-in scene, the path is relative to the source tree, because absolute
+    /// paths differ between machines.
     pub fn display_path(&self) -> &Path {
         &self.shown_path
     }

@@ -4,7 +4,8 @@ use image::RgbImage;
 
 use super::picture::from_pixels;
 
-/// Nine equally spaced colours of the colour map "inferno".
+/// Nine equally spaced colours of the colour map "inferno". The lightness of the map increases evenly, also in
+/// greyscale and for colour-blind people.
 ///
 /// # References
 /// Smith, van der Walt, Firing: the colour maps of Matplotlib 1.5, 2015 (dedicated to the public domain, CC0).
@@ -21,6 +22,8 @@ const INFERNO: [[u8; 3]; 9] = [
 ];
 
 /// The colour of `cost` on a logarithmic scale. The scale ends at `hottest`.
+///
+/// The costs of two structures can differ by a factor of 100. A linear scale would show the cheaper structure in black.
 pub fn heat(cost: u64, hottest: u64) -> [u8; 3] {
     // The logarithm of `libm` is the same on every machine.
     ramp(match hottest {

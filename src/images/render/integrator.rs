@@ -17,11 +17,11 @@ pub struct RayCounts {
     pub shadow: u64,
 }
 
-/// Rays per batch.
+/// Primary rays per batch.
 const CHUNK: usize = 4096;
 
 /// The linear RGB colours of primary rays. `accel` must be built over the scene's mesh. The colours do not depend
-/// on the number of threads.
+/// on the batches or on the number of threads.
 pub fn shade(scene: &Scene, accel: &dyn DynAccel, rays: &[Ray]) -> Vec<Vec3> {
     rays.par_chunks(CHUNK).flat_map_iter(|chunk| trace(scene, accel, chunk.to_vec()).0).collect()
 }
@@ -104,7 +104,7 @@ fn shade_level(
 
 /// The light that a surface reflects to the eye, by the models of Lambert and Blinn-Phong.
 ///
-/// The view vector points to the eye, even if a mirror shows the surface.
+/// As in the renderer of the student's course, the view vector points to the eye, even if a mirror shows the surface.
 fn reflected(material: &Material, surface: &Surface, light: &Light, eye: Vec3) -> Vec3 {
     let normal = surface.shading_normal;
     let to_light = light.position - surface.point.position;

@@ -83,7 +83,8 @@ pub fn costs(scene: &Scene, accel: &dyn DynAccel, size: [u32; 2]) -> Result<Vec<
     Ok(Work::of(accel, &primary(scene, size)).iter().map(Work::cost).collect())
 }
 
-/// The cost with the brightest colour in the heat view: the 99.5th percentile of `costs`, at least 1.
+/// The cost with the brightest colour in the heat view: the 99.5th percentile of `costs`, at least 1. The percentile
+/// ignores a few extreme pixels.
 pub fn hottest(costs: &[u64]) -> u64 {
     let mut sorted = costs.to_vec();
     sorted.sort_unstable();
@@ -98,6 +99,7 @@ pub fn size_of(scene: &Scene, longest: u32) -> [u32; 2] {
     [width, height].map(|side| (u64::from(side) * u64::from(longest) / u64::from(most)).max(1) as u32)
 }
 
+/// The size of pictures on the web page. `sahara render` also computes the scale of the heat view at this size.
 pub fn coarse_size(scene: &Scene) -> [u32; 2] {
     size_of(scene, 320)
 }
@@ -111,6 +113,7 @@ pub fn depth_picture(size: [u32; 2], depths: &[f32]) -> RgbImage {
     let seen = depths.iter().copied().filter(|t| t.is_finite());
     let (near, far) = seen.fold((f32::INFINITY, 0.0f32), |(near, far), t| (near.min(t), far.max(t)));
 
+    // Reciprocals keep the contrast of near surfaces, even if a floor extends to the horizon.
     // The constant 0.15 makes the farthest hit brighter than a miss.
     let near = near.max(far * 1e-3);
     let brightness = |t: f32| {

@@ -94,7 +94,7 @@ pub(super) fn assemble(file: &SceneFile, origin: &Origin) -> Result<Scene, Scene
 
 #[derive(Default)]
 struct SceneBuilder {
-    /// The added objects, in world space.
+    /// The added objects, in world space, with unit normals.
     all: Model,
     stand_ins: Vec<String>,
     /// Whether a downloaded mesh replaces the `mesh` of an object.

@@ -57,6 +57,7 @@ impl Camera {
         self.up
     }
 
+    /// In degrees.
     pub fn vertical_fov(&self) -> f32 {
         self.vertical_fov
     }

@@ -178,6 +178,7 @@ impl SceneFile {
     }
 
     fn check(&self) -> Result<(), (String, String)> {
+        // Tables print the name, and file names contain it.
         let is_word = !self.name.trim().is_empty() && !self.name.contains(char::is_control);
         demand(is_word, "name", "give a name on one line without control characters")?;
         let in_size = self.size.iter().all(|n| (1..=16384).contains(n));

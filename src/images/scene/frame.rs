@@ -50,6 +50,7 @@ impl Scene {
             camera,
             background: Vec3::new(0.2, 0.25, 0.3),
             recursion_limit: 8,
+            // The formula of the fix depends on the unit of length.
             shadow_terminator_fix: false,
             offset: Offset::ErrorBounded,
             size: [512, 512],
@@ -95,6 +96,7 @@ fn place(bounds: Aabb) -> Option<(Camera, Light)> {
     let sign = |i: u32| if i == 0 { -0.5 } else { 0.5 };
     let corners = (0..8).map(|i| (max - min) * DVec3::new(sign(i & 1), sign(i & 2), sign(i & 4)));
     let distance = corners.map(fits).fold(f64::from(f32::MIN_POSITIVE), f64::max);
+    // A box that is a single point has no extent: the distance depends on the coordinates.
     let distance = if max == min { centre.abs().max_element().max(1.0) } else { distance };
 
     let eye = centre + towards * distance;

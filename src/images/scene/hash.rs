@@ -10,7 +10,7 @@ use super::{Offset, Scene};
 impl Scene {
     /// SHA-256, in hexadecimal, of everything that rays, hits or pictures depend on.
     pub fn hash(&self) -> String {
-        // Add every new field of `Scene` to one of these patterns.
+        // Add every new field of `Scene` to one of these patterns. Because of `..`, the compiler does not check this.
         let Self { mesh, normals, materials, material_of, lights, camera, background, .. } = self;
         let Self { recursion_limit, shadow_terminator_fix, offset, size, .. } = self;
         let Self { name: _, is_framed: _, stand_ins: _, notes: _, warnings: _, .. } = self;
@@ -48,6 +48,7 @@ impl Scene {
     }
 }
 
+/// The buffer avoids one call of SHA-256 per word, which would take longer than the hashing.
 struct Hash(BufWriter<Sha256>);
 
 const SUMMED: &str = "a sum takes all bytes";

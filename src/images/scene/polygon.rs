@@ -4,7 +4,9 @@ use earcut::Earcut;
 use glam::{DVec3, Vec3};
 use robust::{Coord, orient2d};
 
-/// Maximum of `Splitter::pairs`, the pairs of corners that ear clipping may compare. It bounds the time.
+/// Maximum of `Splitter::pairs`, a sum over all polygons of a file. It bounds the time of ear clipping, which is
+/// quadratic for a polygon that crosses itself. A concave polygon beyond the limit becomes a fan. Polygons of at most
+/// [`SMALL`] corners add nothing to the sum.
 const MOST_PAIRS: usize = 1 << 27;
 const SMALL: usize = 64;
 
@@ -13,7 +15,9 @@ const BENT: f64 = 0.01;
 
 type Point = [f64; 2];
 
-/// Convex polygons become fans.
+/// Convex polygons become fans, concave quads are split along the diagonal inside, and ear clipping splits all other
+/// polygons. It gives fewer than n - 2 triangles if corners repeat or lie on a line. All decisions are made
+/// in a projection along the axis of the largest component of the normal, seen counterclockwise.
 ///
 /// # References
 /// G. H. Meisters, "Polygons have ears", 1975. J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast

@@ -21,7 +21,8 @@ pub struct Scene {
     pub background: Vec3,
     /// The highest level of mirror rays. Primary rays have level 0.
     pub recursion_limit: u32,
-    /// Whether the origins of shadow rays from smooth triangles move by `shading_normal * area^0.05`.
+    /// Whether the origins of shadow rays from smooth triangles move by `shading_normal * area^0.05`. The source report
+    /// avoids dark facets near the shadow boundary in this way.
     pub shadow_terminator_fix: bool,
     pub offset: Offset,
     pub size: [u32; 2],
@@ -37,7 +38,8 @@ pub struct Scene {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// The hit point, without [`Scene::offset`].
+    /// The hit point, before [`Scene::offset`] moves it, from [`SurfacePoint::on_triangle`]. With
+    /// [`Offset::Direction`], the position is `origin + t * direction`, and `error` is no bound for it.
     pub point: SurfacePoint,
     /// Interpolated unit normal. A triangle without corner normals has the geometric normal.
     pub shading_normal: Vec3,
@@ -81,8 +83,8 @@ impl Scene {
         Surface { point, shading_normal, smooth }
     }
 
-    /// `t_max` is the distance from `surface.point` to the light. The ray may hit an occluder slightly
-    /// beyond the light.
+    /// `t_max` is the distance from `surface.point` to the light. The ray may hit an occluder slightly beyond the
+    /// light, as in the source report. Lights behind the surface get shadow rays as well.
     pub fn shadow_ray(&self, prim: PrimId, surface: &Surface, light: &Light) -> Ray {
         let mut start = surface.point;
         if surface.smooth && self.shadow_terminator_fix {

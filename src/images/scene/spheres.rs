@@ -14,7 +14,7 @@ pub fn triangles(level: u32) -> usize {
     20 * (STEPS[level as usize] as usize).pow(2)
 }
 
-/// All levels have the same camera and the same light.
+/// All levels have the camera and the light of the sphere in the source report.
 ///
 /// # Errors
 /// If `parameters` is not a level.

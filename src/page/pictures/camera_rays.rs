@@ -27,7 +27,8 @@ pub struct StructureWork {
 }
 
 impl<'a> CameraRays<'a> {
-    /// Leaves out each structure that cannot be built, panics or declines a ray.
+    /// Leaves out each structure that cannot be built, panics or declines a ray. Brute force is left out because its
+    /// cost would darken all heat maps on the shared scale.
     pub fn new(loaded: &'a LoadedScene, runs: &Runs, registry: &Registry) -> Self {
         let scene = &loaded.scene;
         let exact = ExactPicture::new(scene, coarse_size(scene));

@@ -8,8 +8,10 @@ use crate::render::{Work, error_name};
 use crate::report::words::each_once;
 use crate::scene::offset::barycentrics;
 
+/// The maximum number of values in the data of one figure. Each value takes about ten bytes on the page.
 const NUMBERS: usize = 75_000;
 
+/// Values per ray that do not depend on a structure.
 const OF_RAY: usize = 8;
 
 /// Returns the maximum number of rays. This limit keeps the page small.

@@ -18,7 +18,8 @@ use crate::request::is_large;
 use camera_rays::CameraRays;
 use scenes::LoadedScene;
 
-/// The maximum number of scenes with heat maps and error maps.
+/// The maximum number of scenes with heat maps and error maps. The maps rebuild all structures, so [large](is_large)
+/// scenes have no maps.
 const LARGEST: usize = 3;
 
 struct Part {
@@ -64,7 +65,7 @@ impl Part {
 
 pub fn draw(runs: &Runs, registry: &Registry, progress: &mut dyn FnMut(String)) -> Vec<Section> {
     let (mut loaded, mut lost): (Vec<LoadedScene>, Vec<String>) = (vec![], vec![]);
-    // Generated scenes get no pictures.
+    // Generated scenes get no pictures, because all scenes of a generator look alike.
     let is_generated = |word: &OsStr| {
         let parts = word.to_str().and_then(|word| word.split_once(':'));
         parts.is_some_and(|(name, _)| registry.has_generator(name))

@@ -51,6 +51,7 @@ struct AttributionArgs {
     #[arg(long, short, help_heading = STRUCTURES, value_name = "NAME", default_value = "exact")]
     test: String,
     // Default epochs, default runs, and default budget in seconds.
+    // All claims are judged together, which needs many epochs.
     #[command(flatten)]
     measuring: Measuring<8, 3, 5>,
 }

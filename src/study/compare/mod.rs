@@ -68,6 +68,7 @@ fn failures(dataset: &Dataset) -> Vec<Failure> {
     let mut reasons = refusals(&refused).into_iter();
     for own in &mut failures {
         if own.refused && !refused.is_empty() {
+            // There are at least as many refused structures as reasons, so all reasons are kept.
             own.sentence = reasons.next().unwrap_or_default();
         } else if !own.wrong || known_defect(&own.structure).is_some() || reported.contains(&own.structure) {
             own.sentence.clear();

@@ -70,11 +70,13 @@ pub struct CompareArgs {
 
 /// Limits of a quick run.
 const QUICK_EPOCHS: u16 = 3;
+/// The maximum number of rays per workload.
 const QUICK_RAYS: usize = 1 << 14;
 /// Time limit for all epochs of a scene.
 const QUICK: Duration = Duration::from_secs(4);
 /// Time limit for the samples of one epoch.
 const QUICK_SAMPLES_NS: u64 = 250_000_000;
+/// Approximate maximum number of brute-force triangle tests for all checks of a scene.
 const QUICK_CHECKS: usize = 1 << 28;
 const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 
@@ -82,7 +84,8 @@ const QUICK_CHECKS_NS: u64 = 1_000_000_000;
 const PACKETS: &str = "sah-hybrid:batch=packets";
 
 /// `--only` and `--budget none` add this structure unless `--reference` is given. A chosen obvhs structure with its
-/// default triangle test also prevents the addition.
+/// default triangle test also prevents the addition. Changes to this crate or to a user's crate do not affect the code
+/// of this structure.
 const GATE_REFERENCE: &str = "obvhs-bvh2";
 
 /// The value of `-s` that omits all structures except runners.
@@ -123,7 +126,7 @@ impl CompareArgs {
                 anyhow::bail!("--only {name} measures nothing else: omit the runner {}", other.spec);
             }
         }
-        // A run without a budget counts as a gate.
+        // A run without a budget may be one of the two runs that a gate compares.
         let is_gate = self.reference.is_none() && (self.only.is_some() || self.measuring.budget == Limit(None));
         if is_gate && structures.iter().all(|own| !is_obvhs(own.name()) || own.spec.contains("test=")) {
             structures.extend(registry.choose(GATE_REFERENCE).ok().map(|choice| (&choice).into()));

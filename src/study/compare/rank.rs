@@ -18,7 +18,8 @@ const PRECISE: [&str; 3] = [Exact::NAME, MollerTrumboreF64::NAME, EdgeF64::NAME]
 /// A scene and a workload.
 type Cell<'a> = (&'a str, &'a str);
 
-/// Ranked structures have a time in more than half of the reference's cells.
+/// Ranked structures have a time in more than half of the reference's cells. A structure with fewer times would reduce
+/// the common cells.
 pub struct Ranking<'a> {
     all: &'a [Measurement],
     noise: AaNoise,
@@ -84,7 +85,7 @@ impl<'a> Ranking<'a> {
         let mut found: Vec<Finding> = firsts.map(|(i, own)| if i > 0 { own.detail() } else { own }).collect();
         found.extend(self.cost(&precise, &single).map(Finding::detail));
         found.extend(self.ranked.iter().filter(|row| !errs(row)).filter_map(|row| self.speed_finding(row)));
-        // Only one finding has the key `FASTEST`.
+        // Only one finding has the key `FASTEST`. A structure with a precise test takes precedence.
         found.extend(fastest.into_iter().next());
         found
     }

@@ -39,7 +39,7 @@ pub fn checked(all: &[Measurement]) -> Option<Finding> {
 
 /// Kendall's tau of SAH cost and time per ray, for structures of different families.
 ///
-/// `None` if a built-in scene is missing.
+/// The mean is over the built-in scenes, because the claim is about them. `None` if a built-in scene is missing.
 pub fn tau(all: &[Measurement]) -> Option<Finding> {
     if !BUILTIN.iter().all(|builtin| all.iter().any(|r| r.scene == builtin.name)) {
         return None;
@@ -56,6 +56,7 @@ pub fn tau(all: &[Measurement]) -> Option<Finding> {
     Some(Finding::number("tau", mean_of_scenes(taus)?))
 }
 
+/// Structures of one family have the same type of cells and nodes.
 fn family(structure: &str) -> &str {
     match structure {
         REPORT_TREE | SAH_TREE => "binary kd-tree",

@@ -1,7 +1,8 @@
 //! Compares the speed and the hits of two runs of the same study.
 //!
 //! The load of the machine may differ between runs. So `diff` compares times relative to reference structures. The
-//! reference structures must have the same code in both runs.
+//! reference structures must have the same code in both runs. They are measured in the same rounds as all other
+//! structures.
 //!
 //! A cell is one workload of one scene. The change of a structure is the geometric mean of new time / old time over all
 //! cells.
@@ -71,8 +72,10 @@ pub struct Comparison {
     pub threshold_percent: Option<f64>,
     /// The maximum number of comparisons while epochs are added to the runs.
     pub looks: usize,
+    /// Includes a structure if it has comparable times, or if the new run lacks a time of the old run.
     pub structures: Vec<Change>,
     pub cells: Vec<Change>,
+    /// Cells in which the rate of wrong hits has more than doubled, or in which hits differ between the runs.
     pub wrong: Vec<Wrong>,
     /// Changed configuration keys and triangle tests, such as `leaf of mybvh 4, now 8`.
     pub differences: Vec<String>,
@@ -174,8 +177,8 @@ fn pairs<'a>(old: &'a [Measurement], new: &'a [Measurement]) -> Vec<(&'a Measure
     old.iter().filter_map(|own| Some((own, counterpart(own, old, new)?))).collect()
 }
 
-/// Finds the measurement of the same structure, scene and workload in the other run. If no label matches, the names of
-/// the structures are compared. A match by name must be unique in both runs.
+/// Finds the measurement of the same structure, scene and workload in the other run. Changed keys change the label. So
+/// if no label matches, the names of the structures are compared. A match by name must be unique in both runs.
 fn counterpart<'a>(own: &Measurement, run: &[Measurement], others: &'a [Measurement]) -> Option<&'a Measurement> {
     fn cell(own: &Measurement) -> (&str, bool, &str, &str) {
         (&own.scene, own.stand_in, &own.workload, &own.role)

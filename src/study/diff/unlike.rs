@@ -35,7 +35,8 @@ fn differ(what: &str, old: &str, new: &str, advice: &'static str) -> Result<(), 
 }
 
 /// Returns an error if the runs are not comparable. With `gate`, both runs must be from one machine. Without `gate`,
-/// runs from different machines need a reference with times in both runs.
+/// runs from different machines need a reference with times in both runs. Code, date and settings may differ, and so
+/// may keys and triangle tests of structures that are not references.
 pub fn unlike(old: &Side, new: &Side, gate: bool) -> Result<(), Unlike> {
     let pairs = pairs(&old.all, &new.all);
     let are_timed = |old: &Measurement, new: &Measurement| old.trace_ns.is_some() && new.trace_ns.is_some();

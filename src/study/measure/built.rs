@@ -22,7 +22,7 @@ impl Built {
         Self::repeated(|_| Self::once(choice, scene, threads, clock))
     }
 
-    /// Like [`new`](Self::new), but counts the peak memory.
+    /// Like [`new`](Self::new), but counts the peak memory. Counting slows a build by less than build times vary.
     pub fn counted(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         Self::repeated(|known_peak| {
             let once = || Self::once(choice, scene, threads, clock);
@@ -51,7 +51,7 @@ impl Built {
 
     fn once(choice: &Choice, scene: &Scene, threads: &Threads, clock: &dyn Clock) -> Result<Self, BuildError> {
         let mesh = Arc::clone(&scene.mesh);
-        // Processor time excludes the time of other processes.
+        // With one thread, the clock is processor time, which excludes the time of other processes.
         let own = CpuClock::Process.on(threads);
         let clock = own.as_ref().map_or(clock, |clock| clock as &dyn Clock);
         let start = clock.now_ns();

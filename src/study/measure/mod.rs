@@ -37,7 +37,10 @@ pub use environment::Environment;
 pub use guarded::{PANICKED, guarded};
 pub use prepared::Prepared;
 
-/// Measures all structures of a case in one epoch.
+/// Measures all structures of a case in one epoch. In epoch 0, also checks hits and counts work.
+///
+/// A structure that cannot be built, panics or changes its hits is refused, without an error. Returns an error if the
+/// structures do not fit into memory, or if the rays or the references of the checks cannot be made.
 pub fn measure(
     case: &Case,
     prepared: &Prepared,
@@ -184,7 +187,7 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// A structure that declines a workload is refused.
+    /// A structure that declines a workload is refused, because its error rate would cover fewer rays.
     fn judge(&mut self, progress: &mut dyn FnMut(Stage)) {
         progress(Stage::Rays("exact results for all".into()));
         let oracle = Oracle::new(&self.prepared.scene.mesh);
@@ -208,7 +211,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// A failed structure does not change the numbers of rays and samples of other structures.
+    /// A failed structure does not change the numbers of rays and samples of other structures. The function `join`
+    /// requires equal numbers in all epochs.
     fn sample(&mut self, progress: &mut dyn FnMut(Stage)) -> Environment {
         let (clock, settings) = (self.clock, &self.case.settings);
         let plan = SamplePlan {

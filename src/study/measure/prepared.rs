@@ -16,7 +16,8 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// `scene` is `None` if the scene of the case is not loaded yet.
+    /// `scene` is `None` if the scene of the case is not loaded yet. Returns an error if a name is unknown, if the
+    /// scene has changed since the plan, or if the threads are not available.
     pub fn new(case: &Case, registry: &Registry, scene: Option<Scene>) -> anyhow::Result<Self> {
         let scene = scene.map_or_else(|| case.scene.load(registry), Ok)?;
         let choices = case.structures.iter().map(|own| own.choose(registry)).collect::<anyhow::Result<_>>()?;

@@ -29,7 +29,7 @@ pub struct Flawed {
 pub enum Flaw {
     #[default]
     None,
-    /// Loses the hits of about half of the rays.
+    /// Loses the hits of about half of the rays, always of the same rays.
     Lossy,
     /// Loses all hits after `HAS_TURNED` is set.
     Turning,

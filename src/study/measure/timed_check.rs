@@ -1,7 +1,7 @@
 //! Compares the hits of a structure on its timed rays with the hits of another tree.
 //!
 //! If the tree uses the structure's triangle test, equal checksums of the hits in epoch 0 end the check. The timed rays
-//! of later epochs are then not compared.
+//! of later epochs are then not compared. The function `join` compares the checksums of later epochs with epoch 0.
 //!
 //! If the structure and the tree disagree on rays, brute force judges some of these rays.
 
@@ -28,7 +28,7 @@ const FEWEST: usize = 64;
 pub struct TimedCheck<'a> {
     pub scene: &'a Scene,
     pub workloads: &'a [Workload],
-    /// The number of planned epochs.
+    /// The number of planned epochs. Each epoch times other rays.
     pub epochs: usize,
     /// Approximate limit for the triangle tests of brute force in one check.
     pub tests: usize,
@@ -38,6 +38,8 @@ pub struct TimedCheck<'a> {
 struct TreeHits {
     name: &'static str,
     triangle_test: &'static str,
+    /// A structure with the tree's triangle test must return the same bits. All other structures must agree within
+    /// rounding.
     tree: Reference,
     /// Brute force with the triangle test of the checked structure. `exact` replaces an unknown or slow test.
     judge: Reference,

@@ -116,7 +116,7 @@ fn empty_samples(case: &TimedRays, cases: &[TimedRays]) -> Samples {
     let mut fewer = vec![];
     for other in cases.iter().filter(|other| other.workload == case.workload) {
         fewer.push(rays_at(other.all, other.level));
-        // Another epoch may use the next level.
+        // The clock may choose the next level in another epoch. The next level has a quarter of the rays.
         if other.is_by_clock && other.level < last_level(other.all) {
             fewer.push(rays_at(other.all, other.level + 1));
         }

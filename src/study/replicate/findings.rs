@@ -15,7 +15,8 @@ pub fn findings(main: &[Replicated], hard: &[Replicated]) -> Vec<Finding> {
         |key: &str, own: &Replicated, value| Finding::number(format!("{key}-{}", slug(own.report.scene)), value);
     findings.extend(hard.iter().map(|own| number("hard", own, own.faster())));
     let difference = |own: &Replicated| Estimate::exact(own.total() as f64 - own.report.rays as f64);
-    // Our scene Starters contains our own creatures, so the ray counts differ from the report.
+    // The creatures in the report's scene Starters must not be copied. Our scene contains our own creatures, so the ray
+    // counts differ from the report.
     let theirs = main.iter().filter(|own| own.report.scene != "Starters");
     findings.extend(theirs.map(|own| number("rays", own, difference(own))));
     findings.extend(t_prime(main).map(|factor| Finding::number("t-prime", factor)));
@@ -44,7 +45,7 @@ fn faster(hard: &[Replicated]) -> Option<Finding> {
     Some(Finding::new("hard", sentence).with_value(mean))
 }
 
-/// The tolerance of ray counts, in rays.
+/// The tolerance of ray counts, in rays. A few hits at triangle edges may differ.
 const CLOSE: u64 = 2;
 
 fn rays(main: &[Replicated]) -> Option<Finding> {

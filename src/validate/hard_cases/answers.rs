@@ -44,6 +44,7 @@ fn hits_of_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Optio
 ///
 /// # Errors
 /// If the external program of the structure fails. For a case with rays, a failed build or a declined ray is an error.
+/// For a property, a failed build counts as a broken property.
 pub fn run(case: &HardCase, subject: &Subject, rays: usize, clock: &dyn Clock) -> Result<Answers, BuildError> {
     match case.content {
         Content::Rays { rays: most, make, .. } => {

@@ -13,22 +13,23 @@ pub struct HardCase {
     pub content: Content,
     /// The reason for the case, in one sentence.
     pub reason: &'static str,
-    /// The source of `reason`, such as a paper, source code or a measurement.
+    /// The source of `reason`, such as a paper, source code or a measurement. The source `survey` is the survey of ray
+    /// tracers behind the cases 1 to 84.
     pub source: &'static str,
 }
 
 /// Decides which totals of `validate --hard` include a case. The first total covers the 59 moderate and extreme cases.
-/// The second total covers the 49 moderate cases.
+/// The second total covers the 49 moderate cases. The survey measured the cases up to number 71 and ranked these 59.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rank {
     /// Valid input of moderate sizes.
     Moderate,
-    /// Valid input of extreme sizes or distances.
+    /// Valid input with scales or direction lengths up to 1e-20 or from 1e15, or with origins 1e8 away.
     Extreme,
     /// Belongs to no total, for example because the rays are invalid.
     Unranked,
-    /// Added after the cases of the other ranks. Belongs to no total.
+    /// Belongs to no total, because the survey did not measure the case.
     Added,
 }
 

@@ -250,7 +250,7 @@ cases! {
         "Rays that leave a surface at a rounded point: half of the points lie below it, so the ray hits it again.",
         "Wächter, Binder 2019; pbrt-v4, Triangle.Reintersect";
 
-    // Further cases.
+    // Further cases, which the survey did not measure.
     Added 73 "continuation", Property => continuation,
         "Continuing behind each hit must visit every crossing of a ray once.",
         "Embree, verify.cpp, sphere_filter_multi_hit";

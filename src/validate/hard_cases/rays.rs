@@ -39,7 +39,7 @@ fn on_grid(sampler: &mut Sampler) -> f32 {
     sampler.below(17) as f32 / 8.0 - 1.0
 }
 
-/// A ray parallel to an axis. The ray meets the cube [-1, 1]^3 at t = 2.
+/// A ray parallel to an axis. The ray meets the cube [-1, 1]^3 at t = 2. The zeros of a negative direction are -0.0.
 pub(super) fn face_plane(_: &Mesh, sampler: &mut Sampler) -> Ray {
     let (axis, sign) = (sampler.below(3), sampler.sign());
     let mut origin = [on_grid(sampler), on_grid(sampler), -3.0 * sign];
@@ -125,6 +125,7 @@ pub(super) fn to_surface(mesh: &Mesh, sampler: &mut Sampler) -> Ray {
     ray_to(centre + sampler.direction() * reach, on_surface(mesh, sampler))
 }
 
+/// The points at eighths of the edges are exact floats.
 pub(super) const SIMPLE: [Vec3; 3] = [Vec3::ZERO, Vec3::new(8.0, 0.0, 4.0), Vec3::new(0.0, 8.0, -4.0)];
 
 /// A ray that meets an edge or a vertex of `SIMPLE` at exactly t = 1.

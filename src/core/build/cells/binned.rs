@@ -93,7 +93,7 @@ fn along(
     let mut offer = |plane: f32, below: usize, above: usize, flat_below: bool| {
         // A plane on a face of the cell does not divide the cell.
         if min < plane && plane < max {
-            // A plane strictly inside `range` has at least one reference on each side.
+            // A plane strictly inside `range` has references on each side, even if the sample has none there.
             let least = usize::from(range.0 < plane && plane < range.1);
             let [below, above] = [below, above].map(|count| sample.scaled(count).max(least));
             let cost = model.cell_split(&areas, plane, [below, above]);
@@ -105,7 +105,7 @@ fn along(
     let count = sample.len();
     let candidates = (context.config.candidates as usize).min(count);
     let Some(planes) = Planes::new(axis, range, candidates, sample) else {
-        // If all references lie in one plane, try only this plane.
+        // No grid: all references lie in one plane, or the range overflows. Only a common plane is tried.
         if range.0 == range.1 {
             offer(range.0, count, 0, true);
             offer(range.0, 0, count, false);

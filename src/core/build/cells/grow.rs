@@ -23,7 +23,8 @@ pub(crate) struct Rules {
     pub pays: bool,
     /// Maximum total number of references in the leaves, divided by the number of references of the root.
     pub duplication: f32,
-    /// Whether a cut counts as progress if only one side has fewer triangles than the node.
+    /// Whether a cut counts as progress if only one side has fewer triangles than the node. A plane inside the cell
+    /// still makes the cell smaller.
     pub one_side_is_progress: bool,
 }
 
@@ -91,7 +92,7 @@ impl<'a, C> Context<'a, C> {
 
 /// Maximum depth of a leaf, similar to 8 + 1.3 log2 n in pbrt (Pharr, Jakob, Humphreys).
 const fn depth_cap(triangles: usize) -> u32 {
-    // The number of binary digits replaces log2 n.
+    // The number of binary digits replaces log2 n, so no library function affects the shape of a tree.
     let log2 = usize::BITS - if triangles > 1 { triangles } else { 1 }.leading_zeros();
     8 + log2 * 13 / 10
 }

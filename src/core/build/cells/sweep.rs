@@ -4,7 +4,8 @@
 //! Wald, Havran: On building fast kd-trees for ray tracing, and on doing that in O(N log N). IEEE Symposium on
 //! Interactive Ray Tracing 2006.
 //!
-//! As in the paper, a triangle in the split plane is assigned only to the cheaper side.
+//! As in the paper, a triangle in the split plane is assigned only to the cheaper side. No hit is lost, because the
+//! traversal visits both sides of a plane that a ray crosses. The budget of references is not in the paper.
 
 use rayon::prelude::*;
 

@@ -9,7 +9,8 @@ use crate::build::extent::Extent;
 
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Maximum depth that a move may create. Without a limit, moves turn nested boxes into a chain.
+/// Maximum depth that a move may create. Without a limit, moves turn nested boxes into a chain, because a chain is
+/// their cheapest tree.
 pub(super) const DEEPEST: u32 = 80;
 
 /// A node with links to its parent and children. A `Link` fills one cache line.
@@ -124,7 +125,8 @@ impl Links {
         growth
     }
 
-    /// Makes `at` the sibling of `target`. Does nothing if the move is impossible, exceeds `DEEPEST` or saves no area.
+    /// Makes `at` the sibling of `target`. Does nothing if the move is impossible or saves no area after earlier
+    /// moves, or if it exceeds `DEEPEST`.
     pub fn relocate(&mut self, at: u32, target: u32) {
         let (parent, sibling) = (self[at].parent, self.sibling(at));
         let grand = self[parent].parent;

@@ -5,8 +5,9 @@
 //! 2013. Meister, Bittner: Parallel Reinsertion for Bounding Volume Hierarchy Optimization, Computer Graphics Forum
 //! 2018.
 //!
-//! Unlike in the second paper, the moves of a batch are made one after the other. The result therefore does not depend
-//! on the number of threads.
+//! Unlike in the second paper, the moves of a batch are made one after the other. A move that no longer saves area is
+//! skipped. The result therefore does not depend on the number of threads. The number of nodes per pass also differs.
+//! All passes use the order of the box areas before the first pass.
 
 mod links;
 mod search;

@@ -5,7 +5,8 @@ use crate::build::sah_cost::CostModel;
 /// of the root. Stich et al. (2009) use 1e-5. A larger value makes builds faster.
 pub(super) const ALPHA: f32 = 1e-3;
 
-/// Factor in the extra cost of an object split whose boxes overlap.
+/// Factor in the extra cost of an object split whose boxes overlap. The paper has no such cost. Values from 2 to 10
+/// give equally fast trees.
 pub(super) const OVERLAP_COST: f32 = 3.0;
 
 /// Maximum number of references in a leaf.
@@ -24,7 +25,8 @@ pub(crate) struct SbvhConfig {
     pub refined: u32,
     /// Maximum number of references in a sample. At least 16.
     pub sample: u32,
-    /// Cost of a traversal step in the binary tree, relative to the test of one block. Positive.
+    /// Cost of a traversal step in the binary tree, relative to the test of one block. Positive. An eight-wide step
+    /// replaces about three binary steps.
     pub node_cost: f32,
     /// Maximum number of references in the tree, as a multiple of the number of triangles. At least 1.
     pub duplication: f32,
@@ -32,7 +34,8 @@ pub(crate) struct SbvhConfig {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Splits {
-    /// An object split is only a fallback for a node with more than `LEAF` references.
+    /// An object split is only a fallback for a node with more than `LEAF` references. Without this fallback, leaves
+    /// are disjoint.
     Spatial,
     SpatialAndObject,
     /// No triangle is in two leaves.

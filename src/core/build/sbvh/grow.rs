@@ -137,7 +137,8 @@ fn cheapest(
 /// The extra cost of an object split whose boxes overlap. A ray through the overlap usually visits both boxes.
 ///
 /// The extra cost is 0 if the spatial split adds more than `count / 16` references. This rule keeps more of the
-/// budget for the nodes below.
+/// budget for the nodes below. The extra cost is also 0 in small nodes, because references that a spatial split adds
+/// there need additional blocks.
 fn overlap_cost(context: &Context, count: usize, object: &Offer<Split>, spatial: &Offer<Split>) -> f64 {
     if count < 4 * BLOCK || spatial.counts.iter().sum::<usize>() > count + count / 16 {
         return 0.0;

@@ -6,7 +6,8 @@ use crate::build::sah_cost::CostModel;
 use crate::geometry::Mesh;
 use crate::triangle::BLOCK;
 
-/// A box is large if its half area exceeds this share of the root's half area.
+/// A box is large if its half area exceeds this share of the root's half area. Few boxes are large, so their additional
+/// splits are cheap.
 const LARGE: f64 = 1.0 / 2048.0;
 
 pub(super) struct Context<'a> {
@@ -31,7 +32,8 @@ impl<'a> Context<'a> {
     }
 
     /// The cost of a leaf, for comparison with the cost of a split. The cost of a leaf of one block in a large box
-    /// includes a traversal step. This step cancels the traversal step of the split node.
+    /// includes a traversal step. This step cancels the traversal step of the split node. The split adds a child
+    /// to the wide node above, but no wide node.
     pub fn unsplit_cost(&self, area: f64, count: usize) -> f64 {
         let leaf = self.costs.box_leaf(area, count);
         if count <= BLOCK && self.is_large(area) { self.costs.box_node(area, leaf) } else { leaf }

@@ -16,6 +16,9 @@ use crate::geometry::{Aabb, Mesh};
 const SLOTS: usize = 2 * PLANES + 2;
 
 /// The arrays have one element per slot.
+///
+/// The box of the parts below a plane is the union of the boxes that begin below, cut off there. A reference therefore
+/// updates only the slots in which it begins and ends. A sliced triangle grows the extents of all its bins.
 pub(super) struct Slots {
     /// The number of references that begin in the slot.
     begin: [u32; SLOTS],
@@ -71,6 +74,7 @@ impl Slots {
             self.above[slot - 1] = above;
         }
 
+        // Each plane has two candidates: references in the plane go above (even `slot`) or below (odd `slot`).
         let mut best: Option<Offer<(Cut, usize)>> = None;
         let mut below = Extent::EMPTY;
         let (mut begun, mut ended) = (0, 0);

@@ -20,7 +20,8 @@ pub type OnError = unsafe extern "C" fn(*mut c_void, c_int, *const c_char);
 /// of memory in bytes. The third argument is true if the change has happened. Returns false to refuse the change.
 pub type OnMemory = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
-/// The options of a query, passed as `RTCIntersectArguments` or `RTCOccludedArguments`. `rest` must be zero.
+/// The options of a query, passed as `RTCIntersectArguments` or `RTCOccludedArguments`. `flags` and `features` are the
+/// first fields of each type. `rest` must be zero.
 #[repr(C)]
 pub struct Arguments {
     pub flags: c_uint,

@@ -21,7 +21,7 @@ use device::Scene;
 use rays::Packet;
 
 /// A scene of Embree. `ROBUST` sets `RTC_SCENE_FLAG_ROBUST`. Without `ROBUST`, the triangle test is Möller-Trumbore.
-/// With `ROBUST`, the triangle test is Plücker.
+/// With `ROBUST`, the triangle test is Plücker, and Embree widens the boxes.
 pub struct Embree<const ROBUST: bool> {
     scene: Scene,
     /// Triangle `i` of the scene is triangle `ids[i]` of the mesh.

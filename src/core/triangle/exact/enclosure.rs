@@ -36,7 +36,8 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 /// - 9.2 n (4 D E |s| + 6 D E E) for w,
 /// - 16.2 n E E |s| for h.
 ///
-/// The code uses larger constants to cover the rounding of the bounds. `f32` inputs cause no overflow or underflow.
+/// The code uses larger constants to cover the rounding of the bounds. `f32` inputs cause no overflow or underflow,
+/// because products of three differences and a direction are 0 or between 2^-596 and 2^520 in magnitude.
 #[inline(always)]
 pub(super) fn look(ray: &Ray, corners: [Vec3; 3]) -> Bounds {
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
@@ -92,7 +93,8 @@ fn determinant(ray: &Ray, corners: [Vec3; 3]) -> (f64, f64) {
 
 /// Bounds the `t` at which the line crosses the plane through `point` perpendicular to `axis`.
 ///
-/// The line must not be parallel to the plane. If the origin lies in the plane, both bounds are zero.
+/// The line must not be parallel to the plane. If the origin lies in the plane, both bounds are zero. The difference
+/// and the division each have a relative error of at most 2^-53.
 #[inline(always)]
 fn at_height(point: Vec3, ray: &Ray, axis: usize) -> Bounds {
     let t = (f64::from(point[axis]) - f64::from(ray.origin[axis])) / f64::from(ray.direction[axis]);

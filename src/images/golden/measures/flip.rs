@@ -188,7 +188,7 @@ fn hyab(one: DVec3, other: DVec3) -> f64 {
     gap.x.abs() + (gap.y * gap.y + gap.z * gap.z).sqrt()
 }
 
-/// `distance` is a HyAB distance to the power 0.7. The largest HyAB distance is between green and blue.
+/// Maps `distance`, a HyAB distance to the power 0.7, to 0..1. The largest HyAB distance is between green and blue.
 fn spread(distance: f64) -> f64 {
     let most = libm::pow(hyab(lab(DVec3::Y), lab(DVec3::Z)), 0.7);
     let bend = 0.4 * most;

@@ -10,12 +10,13 @@ pub struct Plane {
     pub values: Vec<f64>,
 }
 
-/// Rows per band.
+/// Rows per band. The temporary memory of a thread is proportional to this number.
 const BAND: usize = 64;
 
 /// Computes one number per pixel. Bands of rows are computed in parallel. `of` receives the row indices of a band,
 /// extended by `reach` rows above and below. An index outside the picture is replaced by the index of the nearest row.
-/// `of` must return one number per pixel of the received rows.
+/// `of` must return one number per pixel of the received rows. `reach` must be at least the reach of each convolution.
+/// Otherwise, the numbers depend on the bands.
 pub fn in_bands(size: [u32; 2], reach: usize, of: impl Fn(&[usize]) -> Vec<f64> + Sync) -> Vec<f32> {
     let [width, height] = size.map(|side| side as usize);
     let bands: Vec<Range<usize>> = (0..height).step_by(BAND).map(|top| top..height.min(top + BAND)).collect();

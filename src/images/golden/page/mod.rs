@@ -36,6 +36,7 @@ struct Entry {
     size: [u32; 2],
     worst: [u32; 2],
     maps: Vec<Map>,
+    /// The file of a script with the values of the pixels.
     values: Option<String>,
 }
 
@@ -72,6 +73,7 @@ pub fn index(folder: &Path) -> PathBuf {
 }
 
 impl Page<'_> {
+    /// `number` must be unique, because file names contain it. Threads may add comparisons in any order.
     pub fn add(
         &self,
         number: usize,

@@ -16,7 +16,7 @@ use crate::scene::{Scene, Workload};
 pub struct RayFile {
     /// The name of the scene, or an empty string.
     pub scene: String,
-    /// [`Scene::hash`]. `None` for rays without a scene.
+    /// [`Scene::hash`], in hexadecimal. `None` for rays without a scene.
     pub scene_hash: Option<String>,
     pub workload: Workload,
 }
@@ -57,7 +57,7 @@ impl RayFile {
     }
 
     /// # Errors
-    /// If a name contains a control character.
+    /// If a name contains a control character, which would garble tables.
     pub fn check_names(scene: &str, kind: &str) -> Result<(), String> {
         match [scene, kind].into_iter().find(|name| name.chars().any(char::is_control)) {
             Some(name) => Err(format!("the name {name:?} contains a control character: choose another")),

@@ -39,7 +39,7 @@ impl Fault {
         Self::part(format!("line {line}"), problem)
     }
 
-    /// `part` names a part of the file, such as `accessor 3`.
+    /// `part` names a part of the file, such as `accessor 3`. Numbers count from 0, except line numbers.
     pub fn part(part: impl Display, problem: impl Into<String>) -> Self {
         Self { place: format!(", {part}"), problem: problem.into() }
     }

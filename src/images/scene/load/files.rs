@@ -5,6 +5,8 @@ use std::io::{self, Read as _};
 use std::path::{Component, Path, PathBuf};
 
 /// Returns `None` if `name` leads outside `folder`. `name` need not be UTF-8.
+///
+/// The path below `folder` has no `.` or `..`, because callers compare paths to read each file once.
 pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
     #[cfg(unix)]
     let name: &std::ffi::OsStr = std::os::unix::ffi::OsStrExt::from_bytes(name);
@@ -20,7 +22,7 @@ pub(super) fn named_below(folder: &Path, name: &[u8]) -> Option<PathBuf> {
     below.map(|below| folder.join(below))
 }
 
-/// Accepts only regular files, because reading a pipe or a device may block.
+/// Accepts only regular files, because reading a pipe or a device may block or never end.
 pub(super) fn read_start(path: &Path, longest: u64) -> io::Result<Vec<u8>> {
     let file = fs::metadata(path)?;
     if !file.is_file() {

@@ -28,11 +28,14 @@ pub use error::LoadError;
 /// A reference whose path leads outside the folder of `path` is not followed. Symbolic links in the folder are
 /// followed, even to files outside the folder.
 ///
+/// A file is checked before memory is allocated for its triangles. The size of the files limits
+/// this memory, plus a constant for glTF.
+///
 /// # Errors
 /// The causes are:
 /// - an unknown extension,
 /// - an unreadable file,
-/// - a violation of the format,
+/// - a violation of the format, an unsupported feature or an exceeded limit,
 /// - a vertex that is not finite,
 /// - an index that is out of range,
 /// - a file without triangles.

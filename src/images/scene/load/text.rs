@@ -8,6 +8,7 @@ use super::error::Fault;
 pub(super) fn without_byte_order_mark(bytes: &[u8]) -> Result<&[u8], Fault> {
     match bytes {
         [0xef, 0xbb, 0xbf, text @ ..] => Ok(text),
+        // A byte order mark of UTF-16 or UTF-32, or ASCII characters in UTF-16.
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [0, 0, 0xfe, 0xff, ..] | [0, 1..=127, 0, ..] | [1..=127, 0, _, 0, ..] => {
             Err(Fault::line(1, "it is text in UTF-16 or UTF-32: save it as UTF-8"))
         }

@@ -1,4 +1,4 @@
-//! Meshes that are difficult to trace.
+//! Meshes that are difficult to trace. In most of them, a ray hits several triangles at equal or nearly equal `t`.
 
 use glam::Vec3;
 

@@ -7,8 +7,9 @@ use glam::DVec3;
 use super::{flat, smooth};
 use crate::scene::Model;
 
-/// The coordinates are slightly inexact to reproduce the ray counts of the source report. The source report is a
-/// student report that this project reproduces.
+/// The coordinates are multiples of 1/200,000, as in the mesh files of the source report. The ray counts of the source
+/// report depend on these inexact values: in the scene Infinitycandy, an icosahedron of mirrors encloses all other
+/// objects. The source report is a student report that this project reproduces.
 fn corners() -> Vec<DVec3> {
     const HEIGHT: f64 = 0.447215;
     let lower = [[0.7236, 0.52572], [-0.276385, 0.85064], [-0.894425, 0.0], [-0.276385, -0.85064], [0.7236, -0.52572]];
@@ -32,7 +33,8 @@ fn sides() -> Vec<[u32; 3]> {
 
 /// An outward-facing icosahedron of radius 1 with poles on the y axis.
 ///
-/// The stored normals are needed to reproduce the ray counts of the source report.
+/// The stored normals are needed to reproduce the ray counts of the source report. Normals computed in world space from
+/// rounded corners would differ slightly.
 pub fn icosahedron() -> Model {
     let points = corners();
     let normal = |triangle: &[u32; 3]| {

@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
+/// The program that wrote the mesh files of the source report stored normals as 16-bit integers.
 const STEPS: f64 = 32767.0;
 
 /// Each vertex normal is the angle-weighted mean of triangle normals.

@@ -17,7 +17,8 @@ const STEPS: usize = 4;
 
 /// The smooth-shaded teapot, with y up and the spout towards +x.
 ///
-/// Each quadrilateral is cut along the longer diagonal, as in the mesh of the source report.
+/// The construction reproduces the mesh file of the source report to the last digit in the file. Each quadrilateral is
+/// cut along the longer diagonal, as in this file.
 pub fn teapot() -> Model {
     let (points, faces) = welded_patches();
     let (points, quads) = catmull_clark::subdivide(&points, &faces);

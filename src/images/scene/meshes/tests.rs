@@ -79,7 +79,7 @@ fn assert_normals(name: &str, model: &Model) {
     assert!(model.normal_indices.is_empty() || model.normal_indices.len() == model.triangles.len(), "{name}");
     // Some generators truncate normals to multiples of 1/32767, so the lengths may be slightly below 1.
     assert!(model.normals.iter().all(|n| (0.9999..1.000_001).contains(&n.length())), "{name}");
-    // In coarse meshes, a vertex normal may point to the back of a triangle.
+    // In meshes made from distance functions, a vertex normal at a sharp bend may point to the back of a triangle.
     let is_coarse = ["rabbit", "fox", "elephant", "dragon", "lucy"].contains(&name);
     for (corners, normals) in model.triangles.iter().zip(&model.normal_indices) {
         let [a, b, c] = corners.map(|i| model.positions[i as usize]);

@@ -21,7 +21,8 @@ pub fn torus() -> Model {
     smooth((0..SEGMENTS * SIDES).map(point).collect(), net(SEGMENTS, SIDES, quad))
 }
 
-/// Each pole consists of `segments` vertices at one point, so `2 * segments` triangles have no area.
+/// Each pole consists of `segments` vertices at one point, so `2 * segments` triangles have no area. The sphere
+/// in the source report has the same poles.
 ///
 /// # Panics
 /// If `segments` is below 3 or `bands` is below 2.

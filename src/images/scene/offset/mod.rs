@@ -13,17 +13,19 @@ use crate::geometry::Ray;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Offset {
     /// Moves every origin, including the eye, by this distance along the ray direction. A grazing ray may hit the
-    /// surface that it leaves.
+    /// surface that it leaves. The source report uses a distance of 0.01, and its ray counts depend on this distance.
     Direction(f32),
     /// Moves the origin along the normal by the error bound of the point. The origins of camera rays do not move.
     ///
-    /// For a point from [`SurfacePoint::on_triangle`], the ray does not hit the triangle again. The origin moves by at
-    /// most about 12 units in the last place of the largest corner coordinate. The ray may miss surfaces within this
+    /// For a point from [`SurfacePoint::on_triangle`], at any scale and position, the origin lies on the side of the
+    /// triangle's plane to which the ray leaves. The ray therefore does not hit the triangle again. The origin moves by
+    /// at most about 12 units in the last place of the largest corner coordinate. The ray may miss surfaces within this
     /// distance.
     ///
     /// # References
-    /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. Unlike in pbrt, the
-    /// origin moves by at least one float even if the error bound is 0.
+    /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.6. Two changes handle error
+    /// bounds that are 0 (a coordinate is 0 at all corners) or underflow. The origin moves by at least one float on
+    /// each axis on which the normal is not 0, and `t = 0` is excluded.
     ErrorBounded,
 }
 
@@ -48,6 +50,7 @@ impl Offset {
     }
 }
 
+/// Computed in `f32`. The parameter `t` of the ray counts from the moved origin.
 fn moved_along(origin: Vec3, direction: Vec3, distance: f32) -> Ray {
     let direction = direction.normalize();
     Ray::new(origin + direction * distance, direction)

@@ -21,7 +21,11 @@ const GAMMA_7: f32 = {
 impl SurfacePoint {
     /// The function clamps the weights to [0, 1] and divides the weights by their sum.
     ///
-    /// `error` is the error bound from pbrt.
+    /// The point is a weighted mean of the corners. Except for rounding, it lies in the triangle even if `weights` are
+    /// wrong. The error of `origin + t * direction` would grow with the length of the ray.
+    ///
+    /// `error` is the bound from pbrt, which suffices for weights and sums in `f32`. Here only the final rounding is to
+    /// `f32`. The margin serves triangle tests that round the differences between corners and ray origin.
     ///
     /// # References
     /// Pharr, Jakob, Humphreys: Physically Based Rendering, 4th edition, 2023, section 6.8.
@@ -49,7 +53,8 @@ impl SurfacePoint {
     }
 }
 
-/// Barycentric coordinates of the point where the ray's line meets the plane of the corners.
+/// Barycentric coordinates of the point where the ray's line meets the plane of the corners, by Cramer's rule. If the
+/// line misses the triangle, some are outside [0, 1]. If the determinant is 0, all are 1/3.
 pub fn barycentrics(ray: &Ray, corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());

@@ -12,6 +12,7 @@ use crate::scene::{Scene, Surface};
 const CHUNK: usize = 4096;
 
 pub struct SurfaceHit {
+    /// The index of the ray among the traced rays, including misses.
     pub number: usize,
     pub ray: Ray,
     pub hit: Hit,

@@ -40,9 +40,9 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// Rays from the eye through the middle of each pixel.
+    /// Rays from the eye through the middle of each pixel, in tiles. Secondary rays keep this order.
     Primary, "primary", Closest, primary::centres;
-    /// Rays from the eye through the top left corner of each pixel.
+    /// Rays from the eye through the top left corner of each pixel. On regular meshes, they hit edges and vertices.
     Corners, "corners", Closest, primary::corners;
     /// Any-hit rays from each primary hit to each light. The rays of one light are consecutive.
     Shadow, "shadow", Any, bounces::shadow;

@@ -17,7 +17,8 @@ pub fn random(source: &mut Source) -> Vec<Ray> {
     (0..source.sampling.pixels()).map(|_| ray()).collect()
 }
 
-/// Every fourth row and column of the ray lattice lies at a vertex coordinate.
+/// Every fourth row and column of the ray lattice lies at a vertex coordinate. These rays are likely to pass through
+/// vertices, along edges and in the planes of triangles.
 pub fn axis(source: &mut Source) -> Vec<Ray> {
     let scene = source.scene;
     let Some((centre, radius)) = sphere(scene) else { return vec![] };

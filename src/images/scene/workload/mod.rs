@@ -30,8 +30,8 @@ pub struct Workload {
 }
 
 impl Workload {
-    /// `accel` must be built over the scene's mesh. Secondary rays depend on the triangle test of `accel`. The workload
-    /// may be empty.
+    /// `accel` must be built over the scene's mesh. Secondary rays depend on the triangle test of `accel`, and on the
+    /// choice of `accel` between hits at equal `t`. The workload may be empty.
     pub fn new(scene: &Scene, kind: WorkloadKind, sampling: &Sampling, accel: &dyn DynAccel) -> Self {
         let mut source = Source { scene, sampling, accel, sampler: Sampler::new(kind.name(), sampling.seed) };
         let rays = kind.rays(&mut source);

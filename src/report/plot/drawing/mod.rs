@@ -24,6 +24,7 @@ const DRAWN: &str = "drawing into memory cannot fail, and the font is registered
 impl Chart {
     /// Width and height in pixels. The parameter `width` is in units of two pixels.
     fn size(&self, width: f64) -> (u32, u32) {
+        // The labels between the points of a scatter plot need this width.
         let width = if matches!(self, Self::Scatter(_)) { 800.0 } else { width };
         let width = (2.0 * width).round() as i32;
         let height = match self {

@@ -116,6 +116,7 @@ fn what_lies_within_the_noise_is_said_to_be_no_difference() {
     assert!(cell(&table, "sah-kd", "x obvhs").ends_with(" ="), "{table:?}");
     let expected = "A/A noise (median-kd built twice and compared with itself): 1.00%; 0 of 2";
     assert!(table.notes[0].starts_with(expected), "{:?}", table.notes);
+    // The ratio to the twin varies more between epochs than its mean differs from 1.
     for record in &mut all[..2] {
         let by = [1.02, 0.98, 1.03, 0.98, 1.0];
         let twin = record.samples_ns.iter().zip(by).map(|(ns, by)| ns * by);

@@ -1,7 +1,7 @@
 //! Accessors of a glTF file. An accessor is a list of vectors, matrices or indices in a buffer.
 //!
 //! The iterators of the crate `gltf` may panic or return wrong data for an invalid accessor. `Accessors::new` therefore
-//! checks every accessor.
+//! checks every accessor against its buffer view and buffer. `Accessors::read` checks the type.
 
 use std::array;
 use std::iter::repeat_with;

@@ -11,6 +11,7 @@ const DEEPEST: usize = 1024;
 /// Returns the shown nodes, and the transforms of all nodes to world space.
 ///
 /// The shown nodes are the nodes of the default scene. If the file has no default scene, all nodes are shown.
+/// Their order is depth-first, with each node before its children.
 pub(super) fn walk(document: &Document) -> Result<(Vec<Node<'_>>, Vec<DMat4>), Fault> {
     let fault = |node: usize, problem: String| Err(Fault::part(format!("node {node}"), problem));
     let nodes: Vec<Node> = document.nodes().collect();

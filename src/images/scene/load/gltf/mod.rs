@@ -22,6 +22,8 @@ use self::shape::Shape;
 use super::error::Fault;
 use crate::scene::{Material, Model};
 
+/// Each count that `reserve` receives may exceed the bytes of the files by this number. Shared meshes and accessors can
+/// make more triangles than the files have bytes.
 const EXTRA_ELEMENTS: usize = 1 << 24;
 
 /// Vertices are transformed in `f64` and rounded to `f32` once.
@@ -93,7 +95,7 @@ pub(super) fn read(mut bytes: Vec<u8>, folder: &Path) -> Result<Model, Fault> {
 
 /// Rejects a model with too many elements. A small file can show a large mesh many times. Call `reserve` before `add`.
 ///
-/// `sizes` are the counts of vertices, normals, triangles and other elements.
+/// `sizes` are the counts of vertices, normals, triangles and other elements, which are parts and instances.
 fn reserve(model: &mut Model, sizes: [usize; 4], bytes: usize) -> Result<(), Fault> {
     let [vertices, normals, triangles, others] = sizes;
     let most = bytes.saturating_add(EXTRA_ELEMENTS).min(u32::MAX as usize - 1);

@@ -29,7 +29,8 @@ impl<'a> Placement<'a> {
         Ok(copies.unwrap_or(1))
     }
 
-    /// If the node has a skin, the first joint of the skin places the mesh.
+    /// If the node has a skin, the first joint of the skin places the mesh. In the pose in which the skin was bound,
+    /// all joints have the same effect.
     pub fn transforms(&self, worlds: &[DMat4], accessors: Accessors<'a>) -> Elements<'a, DMat4> {
         let mut world = worlds[self.node.index()];
         if let Some(skin) = self.node.skin()

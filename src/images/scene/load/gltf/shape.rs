@@ -11,6 +11,7 @@ use crate::scene::load::error::Fault;
 
 #[derive(Default)]
 pub(super) struct Shape<'a> {
+    /// The numbers of accessors. Primitives often share accessors.
     pub positions: IndexSet<usize>,
     pub normals: IndexSet<usize>,
     pub parts: Vec<Part<'a>>,

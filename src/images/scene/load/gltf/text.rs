@@ -122,8 +122,8 @@ fn typed<T: DeserializeOwned>(place: &str, mut value: Value) -> Result<T, Fault>
     })
 }
 
-/// Indices of 2^32 or more become `u32::MAX`, which is out of bounds. A nested list is an error, because serde would
-/// read the inner list as an object.
+/// Indices of 2^32 or more become `u32::MAX`, which is out of bounds. The crate `gltf` would truncate them. A
+/// nested list is an error, because serde would read the inner list as an object.
 fn prune(key: &str, value: &mut Value) -> Result<(), &'static str> {
     match value {
         Value::Object(members) => {

@@ -1,5 +1,8 @@
 //! Passes the statements of an OBJ file to tobj.
 //!
+//! tobj receives one checked statement at a time, to know the line of each error. Each guard that a comment about tobj
+//! explains has a test that fails without the guard.
+//!
 //! The filter keeps data that tobj drops. The text is read twice, because faces may refer to later vertices.
 
 use std::borrow::Cow;
@@ -21,7 +24,8 @@ const SKIPPED: &str = "vt vp g o s cstype deg bmat step parm trim hole scrv sp e
 /// A face with more corners is probably a mistake.
 const MOST_CORNERS: usize = 1 << 20;
 
-/// The filter begins a new tobj model after this number of corners. A larger model takes more temporary memory in tobj.
+/// The filter begins a new tobj model after this number of corners. Until a model ends, tobj holds up to thirty
+/// times the text of the model.
 const CORNERS_IN_MODEL: usize = 1 << 16;
 
 #[derive(Clone, Copy)]
@@ -136,7 +140,8 @@ impl Contents {
         Ok(())
     }
 
-    /// Returns `None` unless there are three valid numbers. tobj would accept nan, inf and 1e999 as coordinates.
+    /// Returns `None` unless there are three valid numbers. tobj would accept nan, inf and 1e999 as coordinates. tobj
+    /// would also split words at white space outside ASCII.
     fn vector<'w>(&mut self, keyword: &[u8], mut words: impl Iterator<Item = &'w [u8]>) -> Option<()> {
         let is_vertex = keyword == b"v";
         let vectors = if is_vertex { &mut self.vertices } else { &mut self.normals };
@@ -150,6 +155,7 @@ impl Contents {
         }
         self.to_tobj.push_back(b'\n');
         // The fourth of exactly four numbers is a weight. tobj would divide the coordinates by the weight.
+        // More numbers are colours, which tobj requires for all vertices or none.
         if is_vertex && let (Some(weight), None) = (words.next(), words.next()) {
             self.weighted += usize::from(number::<f32>(weight) != Some(1.0));
         }

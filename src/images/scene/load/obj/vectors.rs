@@ -17,7 +17,7 @@ pub(super) struct Vectors {
     pub last_model: Vec<u32>,
     /// Zero-based vector indices in the order in which tobj returns the vectors.
     order: Vec<u32>,
-    /// The number of vectors before the current statement.
+    /// The number of vectors before the current statement, in the second reading.
     pub so_far: usize,
 }
 

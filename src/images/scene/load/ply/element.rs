@@ -32,7 +32,8 @@ impl Header {
         if !bytes.starts_with(b"ply") {
             return Err(Fault::line(1, "a PLY file begins with the line `ply`: this is another format"));
         }
-        // The first line determines the line end of the header.
+        // The first line determines the line end of the header. After a header with `\r`, binary rows may begin with
+        // the byte `\n`.
         let line_end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
         let (mut header, mut number, mut read) = (Self::default(), 1, 0);
         let text = &bytes[..bytes.len().min(LONGEST)];

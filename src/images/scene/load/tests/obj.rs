@@ -207,6 +207,7 @@ fn vertices_are_the_same_in_all_parts_of_a_large_file() {
     positions.iter().for_each(|p| text += &format!("v {} {} {}\n", p.x, p.y, p.z));
     normals.iter().for_each(|n| text += &format!("vn {} {} {}\n", n.x, n.y, n.z));
     let (mut triangles, mut normal_indices, mut material_of) = (vec![], vec![], vec![]);
+    // Faces alternate between distant rows, because models must share vertices.
     for i in 0..(SIDE - 1) * (SIDE - 1) {
         let (row, column) = (i * 7 % (SIDE - 1), i / (SIDE - 1));
         let a = row * SIDE + column;

@@ -1,4 +1,4 @@
-//! A generated dragon mesh in place of the scanned dragon.
+//! A generated dragon mesh in place of the scanned dragon, which we are not permitted to copy.
 
 mod body;
 mod head;
@@ -15,6 +15,7 @@ const TRIANGLES: usize = 130_858;
 
 const BOUNDS: Aabb = Aabb { min: Vec3::new(-0.102, 0.0, -0.046), max: Vec3::new(0.102, 0.144, 0.046) };
 
+/// In units of the distance function. The distance function is 20 times as large as `BOUNDS`.
 const STEP: f32 = 0.0221;
 
 /// A closed dragon that stands on y = 0 and faces +x.

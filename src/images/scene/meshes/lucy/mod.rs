@@ -1,4 +1,4 @@
-//! A generated statue in place of the scanned statue Lucy.
+//! A generated statue in place of the scanned statue Lucy, which we are not permitted to copy.
 
 mod figure;
 mod gown;

@@ -54,7 +54,7 @@ impl Grid {
         (0..8).fold(0, |mask, i| mask | u8::from(self.values[self.index(corner(cell, i))] < 0.0) << i)
     }
 
-    /// The cells that the surface crosses.
+    /// The cells that the surface crosses, in ascending order.
     pub fn cells(&self) -> Vec<[usize; 3]> {
         let [nx, ny, nz] = self.size;
         let layer = |z| (0..ny - 1).flat_map(move |y| (0..nx - 1).map(move |x| [x, y, z]));
@@ -63,7 +63,7 @@ impl Grid {
     }
 
     /// Turns outside grid points into inside points until no cell contains two pieces of the surface. A mesh with one
-    /// vertex per cell is then a two-manifold.
+    /// vertex per cell is then a closed two-manifold. Inside points stay inside, so the loop terminates.
     pub fn simplify(&mut self) {
         let simple: Vec<bool> = (0..=255).map(|mask| connected(mask) && connected(!mask)).collect();
         let mut queue = self.cells();
@@ -111,6 +111,7 @@ fn fill_block(sdf: &Sdf, origin: Vec3, step: f32, block: [usize; 3], size: [usiz
 /// Whether the corners in `mask` are connected along the edges of a cube.
 fn connected(mask: u8) -> bool {
     let mut reached = mask & mask.wrapping_neg();
+    // Each round adds one edge to the paths. No path needs more than seven edges.
     for _ in 0..8 {
         let neighbours = (0..8).filter(|c| reached >> c & 1 == 1).flat_map(|c| [1, 2, 4].map(|axis| 1 << (c ^ axis)));
         reached |= mask & neighbours.fold(0, |all, corner: u8| all | corner);

@@ -2,7 +2,7 @@
 
 use crate::scene::Model;
 
-/// The mesh must be closed.
+/// The mesh must be closed. `count` must be even and at least the current number of triangles, or the function panics.
 pub fn split_to(model: &mut Model, count: usize) {
     loop {
         let have = model.triangles.len();
@@ -14,7 +14,7 @@ pub fn split_to(model: &mut Model, count: usize) {
     }
 }
 
-/// Splits at most one edge per triangle.
+/// Splits the longest edges first, at most one edge per triangle. Vertex numbers break ties.
 fn split_longest(model: &mut Model, limit: usize) {
     // After sorting, the two half-edges of an edge are adjacent.
     let mut halves = Vec::with_capacity(3 * model.triangles.len());

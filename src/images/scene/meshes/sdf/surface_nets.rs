@@ -34,6 +34,8 @@ impl Sdf {
         largest_piece(Model { positions, triangles, normals, ..Model::default() })
     }
 
+    /// Moves the vertices onto the surface and takes the normals from the distance function. On a coarse mesh, these
+    /// normals are better than normals computed from triangles.
     pub fn settle(&self, model: &mut Model, step: f32) {
         let settled = |&start: &Vec3| {
             let active = self.near(start, 2.0 * step);
@@ -68,6 +70,7 @@ pub fn pieces(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     (0..vertices as u32).map(|v| root(&mut parent, v)).collect()
 }
 
+/// The removed pieces are cavities in the solid and small pieces beside the solid.
 fn largest_piece(model: Model) -> Model {
     let pieces = pieces(model.positions.len(), &model.triangles);
     let mut sizes = vec![0u32; pieces.len()];

@@ -11,7 +11,7 @@ use glam::Vec3;
 use super::{patches::Patches, sdf::Frame};
 use crate::scene::{Material, Model};
 
-/// The replaced Sponza model has this number of triangles.
+/// The triangle count of the Sponza model in the source report.
 const TRIANGLES: usize = 174_838;
 
 /// Half length of the court along x, half width along z, and z of the middle.

@@ -100,6 +100,7 @@ pub fn grounds(patches: &mut Patches) {
 /// Both ends of a roof's eaves, and the vector from the eaves to the ridge.
 type Slope = [Vec3; 3];
 
+/// Adds tiles until the whole building has `triangles` triangles. Panics if the roofs have too few tiles.
 pub fn roofs(patches: &mut Patches, triangles: usize) {
     let [half_length, half_width, middle] = COURT;
     let v = Vec3::new;
